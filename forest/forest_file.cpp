@@ -18,7 +18,7 @@ namespace {
 // Version 2 added pose priors and the place confidences that rest on them; models of version 1 lack
 // them. Version 3 packs trees more tightly. Version 4 added the refinement, version 5 the
 // relabelling.
-constexpr ContainerFormat kFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
+constexpr ContainerFormat kModelFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
 constexpr uint32_t kOldestVersion = 1;  // that is still read
 // Constants: of the format (zstd levels) and bounds against damaged files.
 
@@ -184,7 +184,7 @@ ForestData ParseVersion(std::span<const std::byte> payload, const std::string& n
 // Each form is let go before the next but one is made: a model is some 60 MB in each of them.
 ForestModel Parse(std::vector<std::byte> compressed, const std::string& name, uint32_t version,
                   ModelUse use) {
-  std::vector<std::byte> payload = Decompress(compressed, name, kFormat.what);
+  std::vector<std::byte> payload = Decompress(compressed, name, kModelFormat.what);
   std::vector<std::byte>().swap(compressed);
   const std::string where = name + " (unpacked)";
   ForestData data = ParseVersion(payload, where, version);
@@ -218,26 +218,26 @@ std::vector<std::byte> PackForest(const ForestData& data, std::span<const Tree> 
 }
 
 ForestData ParseForest(std::span<const std::byte> payload, const std::string& name) {
-  return ParseVersion(payload, name, kFormat.version);
+  return ParseVersion(payload, name, kModelFormat.version);
 }
 
 ForestModel ReadForestModel(const std::filesystem::path& path, ModelUse use) {
-  const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
+  const ContainerFormat format = ReadContainerFormat(path, kModelFormat, kOldestVersion);
   return NamingTheFile(
       path, [&] { return Parse(ReadContainer(path, format), path.string(), format.version, use); });
 }
 
 ForestModel ReadForestModel(std::span<const std::byte> bytes, const std::string& name) {
-  const ContainerFormat format = ReadContainerFormat(bytes, kFormat, kOldestVersion);
+  const ContainerFormat format = ReadContainerFormat(bytes, kModelFormat, kOldestVersion);
   return Parse(ReadContainerBytes(bytes, name, format), name, format.version, ModelUse::kAny);
 }
 
-bool IsForestModel(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool IsForestModel(const std::filesystem::path& path) { return IsContainer(path, kModelFormat); }
 
 void WriteForestModel(const std::filesystem::path& path, const ForestModel& model) {
   const Tree& first = model.data().trees.front();
   if (first.entry_begin.empty()) throw std::logic_error("a model to run only cannot be written");
-  WriteContainer(path, kFormat, Packed(model.data(), kCompressionLevel));
+  WriteContainer(path, kModelFormat, Packed(model.data(), kCompressionLevel));
 }
 
 uint64_t FileSize(const ForestData& data, Packing packing) {

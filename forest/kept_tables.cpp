@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 // A file of kept tables: what is not tables, a head of sizes and checksums, in a checksummed
 // container beside it; and the tables, one after another, as they lie in memory. Read by the build
 // that wrote it alone.
-constexpr ContainerFormat kFormat{{'o', 's', 's', 'a', 't', 'a', 'b', 's'}, 1, "kept tables"};
+constexpr ContainerFormat kTablesFormat{{'o', 's', 's', 'a', 't', 'a', 'b', 's'}, 1, "kept tables"};
 
 // Size and time of a file, which change with what is in it.
 std::string Stamp(const fs::path& file) {
@@ -138,7 +138,7 @@ bool Fill(std::vector<T>& table, uint64_t count, int file, uint64_t at) {
 
 // All but the tables, of which the sizes, in ForEachTable's order.
 std::vector<TableSize> ReadHead(const fs::path& file, Kept* kept) {
-  const std::vector<std::byte> bytes = ReadContainer(file, kFormat);
+  const std::vector<std::byte> bytes = ReadContainer(file, kTablesFormat);
   PayloadReader head(bytes, file.string());
   kept->data = ParseForest(head.GetVector<std::byte>("what is no table"), file.string());
   const auto trees = head.Get<uint64_t>("trees");
@@ -210,7 +210,7 @@ void Write(const fs::path& place, const ForestData& data, const RuntimeTables& o
                           static_cast<std::streamsize>(BytesOf(table)));
   });
   tables.CommitOneOfMany();  // checksums tell what a power cut left
-  WriteContainer(HeadOf(place), kFormat, PackHead(data, of));
+  WriteContainer(HeadOf(place), kTablesFormat, PackHead(data, of));
   RemoveOldOnes(place.parent_path());
   RemoveLeftoversOf(TablesOf(place));
 } catch (const InputError&) {

@@ -8,7 +8,7 @@
 namespace ossa::forest {
 namespace {
 
-constexpr ContainerFormat kFormat{
+constexpr ContainerFormat kCheckpointFormat{
     {'o', 's', 's', 'a', 'c', 'h', 'k', 'p'}, 2, "training checkpoint"};
 
 void CheckNodes(const std::vector<Node>& nodes, size_t frontier, const PayloadReader& reader) {
@@ -59,11 +59,11 @@ void WriteCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
   writer.Put<int32_t>(checkpoint.growing.level);
   writer.Put<uint64_t>(checkpoint.growing.frontier_begin);
   writer.PutVector(checkpoint.growing.nodes);
-  WriteContainer(path, kFormat, writer.bytes());
+  WriteContainer(path, kCheckpointFormat, writer.bytes());
 }
 
 Checkpoint ReadCheckpoint(const std::filesystem::path& path, const std::vector<Setting>& settings) {
-  const std::vector<std::byte> payload = ReadContainer(path, kFormat);
+  const std::vector<std::byte> payload = ReadContainer(path, kCheckpointFormat);
   PayloadReader reader(payload, path.string());
   Checkpoint checkpoint;
   checkpoint.settings = ReadSettings(reader);

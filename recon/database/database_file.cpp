@@ -12,7 +12,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr ContainerFormat kFormat = {
+constexpr ContainerFormat kDatabaseFormat = {
     {'O', 'S', 'S', 'A', 'D', 'B', '0', '0'}, PostureDatabase::kVersion, "posture database"};
 constexpr uint32_t kStanceVersion = 1;  // of the file format
 
@@ -70,15 +70,15 @@ void PostureDatabase::Save(const std::filesystem::path& path) const {
   out.PutVector(quaternions_);
   out.PutVector(edge_begin_);
   out.PutVector(edges_);
-  WriteContainer(path, kFormat, out.bytes());
+  WriteContainer(path, kDatabaseFormat, out.bytes());
 }
 
 bool PostureDatabase::IsFile(const std::filesystem::path& path) {
-  return IsContainer(path, kFormat);
+  return IsContainer(path, kDatabaseFormat);
 }
 
 PostureDatabase PostureDatabase::Load(const std::filesystem::path& path) {
-  const ContainerFormat format = ReadContainerFormat(path, kFormat, kStanceVersion);
+  const ContainerFormat format = ReadContainerFormat(path, kDatabaseFormat, kStanceVersion);
   return NamingTheFile(
       path, [&] { return FromBytes(ReadContainer(path, format), path.string(), format.version); });
 }

@@ -14,6 +14,9 @@
 
 namespace ossa::recon {
 
+/// From frame to frame where a file of a Kinect SDK states no times: 30 Hz, that SDK's rate.
+inline constexpr double kKinectStep_s = 1.0 / 30.0;
+
 /// What a reader of one format is given.
 struct SkeletonInput {
   std::istream& stream;

@@ -11,8 +11,6 @@
 namespace ossa::recon {
 namespace {
 
-constexpr double kUsualStep_s = 1.0 / 30.0;  // 30 Hz, the Kinect SDK's rate
-
 bool AllNumbers(const std::vector<std::string_view>& words) {
   return std::all_of(words.begin(), words.end(), LooksLikeNumber);
 }
@@ -39,7 +37,7 @@ void RequireWholeFrame(const TextLines& lines, const BodyRecord& body) {
 SkeletonSequence ReadKinectGait(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);
   SkeletonSequence sequence{input.name, {}};
-  const double step_s = input.FrameTime_s(kUsualStep_s);
+  const double step_s = input.FrameTime_s(kKinectStep_s);
   std::optional<Joint> first;
   BodyRecord body;
   const auto finish = [&] {
@@ -87,7 +85,7 @@ bool IsMsrAction3D(const SkeletonSample& sample) {
 SkeletonSequence ReadMsrAction3D(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);
   SkeletonSequence sequence{input.name, {}};
-  const double step_s = input.FrameTime_s(kUsualStep_s);
+  const double step_s = input.FrameTime_s(kKinectStep_s);
   while (lines.NextFilled()) {
     BodyRecord body;
     for (size_t row = 0; row < kJointCount; ++row) {
@@ -122,7 +120,7 @@ bool IsUtKinect(const SkeletonSample& sample) {
 SkeletonSequence ReadUtKinect(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);
   SkeletonSequence sequence{input.name, {}};
-  const double step_s = input.FrameTime_s(kUsualStep_s);
+  const double step_s = input.FrameTime_s(kKinectStep_s);
   std::optional<double> first;
   while (lines.NextFilled()) {
     const auto numbers =

@@ -14,7 +14,6 @@ namespace {
 
 // Constants: of the Kinect SDK 2 and of KERAAL's format.
 
-constexpr double kUsualStep_s = 1.0 / 30.0;
 constexpr size_t kV2Joints = 25;
 constexpr size_t kSpineShoulder = 20;
 
@@ -80,7 +79,7 @@ constexpr size_t kKeraalColumns = 7 * kV2Joints;
 SkeletonSequence ReadKeraal(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);
   SkeletonSequence sequence{input.name, {}};
-  const double step_s = input.FrameTime_s(kUsualStep_s);
+  const double step_s = input.FrameTime_s(kKinectStep_s);
   while (lines.NextFilled()) {
     const auto numbers = NumbersIn(lines, Words(lines.line()), kKeraalColumns,
                                    "position and quaternion of 25 joints");
@@ -183,7 +182,7 @@ class NtuReader {
  public:
   explicit NtuReader(SkeletonInput& input)
       : lines_(input.stream, input.name),
-        step_s_(input.FrameTime_s(kUsualStep_s)),
+        step_s_(input.FrameTime_s(kKinectStep_s)),
         sequence_{input.name, {}} {}
 
   SkeletonSequence Run() {

@@ -63,9 +63,9 @@ std::string Row(int64_t number, double time_s, const BodyRecord* body) {
 
 // One person's table, written as it comes. Its header has room for what it will say at the end,
 // which is taken out then.
-class Table {
+class MarkerTable {
  public:
-  Table(const fs::path& path, std::optional<int> id) : id_(id), path_(path), file_(path) {
+  MarkerTable(const fs::path& path, std::optional<int> id) : id_(id), path_(path), file_(path) {
     const std::string header = Header({}, path_, kRoom);
     room_ = header.size();
     file_.stream() << header;
@@ -112,7 +112,7 @@ class Table {
 class TrcWriter final : public SkeletonWriter::Format {
  public:
   explicit TrcWriter(fs::path path) : path_(std::move(path)) {
-    tables_.push_back(std::make_unique<Table>(path_, std::nullopt));
+    tables_.push_back(std::make_unique<MarkerTable>(path_, std::nullopt));
   }
 
   void Write(const SkeletonFrame& frame) override {
@@ -147,7 +147,7 @@ class TrcWriter final : public SkeletonWriter::Format {
       if (!table->id()) table->set_id(id);
       if (table->id() == id) return;
     }
-    auto table = std::make_unique<Table>(PathForBody(path_, tables_.size(), id), id);
+    auto table = std::make_unique<MarkerTable>(PathForBody(path_, tables_.size(), id), id);
     for (size_t f = 0; f < times_s_.size(); ++f) {
       table->Append(Row(static_cast<int64_t>(f) + 1, times_s_[f], nullptr));
     }
@@ -163,7 +163,7 @@ class TrcWriter final : public SkeletonWriter::Format {
 
   fs::path path_;
   std::vector<double> times_s_;
-  std::vector<std::unique_ptr<Table>> tables_;
+  std::vector<std::unique_ptr<MarkerTable>> tables_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr ContainerFormat kFormat = {
+constexpr ContainerFormat kMeshFormat = {
     {'O', 'S', 'S', 'A', 'M', 'S', '0', '0'}, BodyMesh::kVersion, "body mesh"};
 constexpr double kStep_m = 1e-4;     // places are stored so finely; by hand: finer than skin is
 constexpr double kWeightStep = 255;  // of a weight's byte, by definition
@@ -35,14 +35,14 @@ std::vector<float> CollectOutline(const BodySurface& surface) {
 }
 
 template <typename Matrix>
-void Put(PayloadWriter& out, const Matrix& values_m) {
+void PutSteps(PayloadWriter& out, const Matrix& values_m) {
   for (Eigen::Index i = 0; i < values_m.size(); ++i) {
     out.Put(static_cast<int16_t>(std::lround(values_m(i) / kStep_m)));
   }
 }
 
 template <typename Matrix>
-void Get(PayloadReader& in, const char* field, Matrix& values_m) {
+void GetSteps(PayloadReader& in, const char* field, Matrix& values_m) {
   for (Eigen::Index i = 0; i < values_m.size(); ++i) {
     values_m(i) = kStep_m * in.Get<int16_t>(field);
   }
@@ -61,8 +61,8 @@ MeshVertex GetVertex(PayloadReader& in) {
   }
   if (sum == 0.0F) in.Fail("weight of a vertex", "expected a bone that carries it, found none");
   for (float& weight : vertex.weight) weight /= sum;
-  Get(in, "place of a vertex", vertex.place.mean_m);
-  Get(in, "place of a vertex", vertex.place.by_shape_m);
+  GetSteps(in, "place of a vertex", vertex.place.mean_m);
+  GetSteps(in, "place of a vertex", vertex.place.by_shape_m);
   return vertex;
 }
 
@@ -106,25 +106,26 @@ void BodyMesh::Save(const std::filesystem::path& path) const {
       out.Put(vertex.bone[k]);
       out.Put(static_cast<uint8_t>(std::lround(vertex.weight[k] * kWeightStep)));
     }
-    Put(out, vertex.place.mean_m);
-    Put(out, vertex.place.by_shape_m);
+    PutSteps(out, vertex.place.mean_m);
+    PutSteps(out, vertex.place.by_shape_m);
   }
   std::vector<uint16_t> corners;
   for (const MeshTriangle& triangle : triangles) {
     for (const uint32_t corner : triangle) corners.push_back(static_cast<uint16_t>(corner));
   }
   out.PutVector(corners);
-  WriteContainer(path, kFormat, Compress(out.bytes(), kLevel));
+  WriteContainer(path, kMeshFormat, Compress(out.bytes(), kLevel));
 }
 
 BodyMesh BodyMesh::Load(const std::filesystem::path& path, const BodySurface& surface) {
   return NamingTheFile(path, [&] {
-    const auto payload = Decompress(ReadContainer(path, kFormat), path.string(), kFormat.what);
+    const auto payload =
+        Decompress(ReadContainer(path, kMeshFormat), path.string(), kMeshFormat.what);
     return FromPayload(payload, path.string(), surface);
   });
 }
 
-bool BodyMesh::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool BodyMesh::IsFile(const std::filesystem::path& path) { return IsContainer(path, kMeshFormat); }
 
 size_t SegmentOfHumanBone(size_t bone) {
   using enum Segment;

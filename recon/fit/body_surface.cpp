@@ -13,7 +13,7 @@ namespace {
 
 // Constants: bounds, by hand: no body is larger, and any turn is within half a turn.
 
-constexpr ContainerFormat kFormat = {
+constexpr ContainerFormat kSurfaceFormat = {
     {'O', 'S', 'S', 'A', 'S', 'F', '0', '0'}, BodySurface::kVersion, "body surface"};
 constexpr double kLargest_m = 3.0;
 constexpr double kLargestTurn_rad = 3.15;
@@ -109,14 +109,16 @@ void BodySurface::Save(const std::filesystem::path& path) const {
     Put(out, point.place);
     Put(out, point.normal);
   }
-  WriteContainer(path, kFormat, out.bytes());
+  WriteContainer(path, kSurfaceFormat, out.bytes());
 }
 
-bool BodySurface::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool BodySurface::IsFile(const std::filesystem::path& path) {
+  return IsContainer(path, kSurfaceFormat);
+}
 
 BodySurface BodySurface::Load(const std::filesystem::path& path) {
-  return NamingTheFile(path,
-                       [&] { return FromBytes(ReadContainer(path, kFormat), path.string()); });
+  return NamingTheFile(
+      path, [&] { return FromBytes(ReadContainer(path, kSurfaceFormat), path.string()); });
 }
 
 BodySurface BodySurface::FromBytes(std::span<const std::byte> bytes, const std::string& name) {

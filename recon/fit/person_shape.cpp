@@ -11,7 +11,8 @@
 namespace ossa::recon {
 namespace {
 
-constexpr ContainerFormat kFormat = {{'O', 'S', 'S', 'A', 'P', 'E', '0', '0'}, 1, "person file"};
+constexpr ContainerFormat kPersonFormat = {
+    {'O', 'S', 'S', 'A', 'P', 'E', '0', '0'}, 1, "person file"};
 // Constants: bounds of what a file may say, by hand.
 constexpr double kLargestShape = 10.0;  // standard deviations
 constexpr double kLargestSum =
@@ -20,7 +21,7 @@ constexpr int kMostFrames = 1'000'000'000;
 
 // Standard deviation of what no frame tells of stature: hair, soles and bodies that are none of the
 // learned ones. On rendered people of train shapes (`ossa experiment fit`, docs/benchmarks).
-constexpr double kModel_m = 0.02;
+constexpr double kStatureModel_m = 0.02;
 
 double GetNumber(PayloadReader& in, const char* field, double least, double most) {
   const auto value = in.Get<double>(field);
@@ -84,7 +85,8 @@ ShapeMatrix PersonShape::Covariance() const {
 Stature MeasureStature(const PersonShape& person, const BodySurface& surface) {
   const ShapeVector& by_shape_m = surface.stature_by_shape_m;
   const double variance_m2 = by_shape_m.dot(person.Covariance() * by_shape_m);
-  return {surface.Stature_m(person.Likeliest()), std::sqrt(kModel_m * kModel_m + variance_m2)};
+  return {surface.Stature_m(person.Likeliest()),
+          std::sqrt(kStatureModel_m * kStatureModel_m + variance_m2)};
 }
 
 void PersonShape::Save(const std::filesystem::path& path, const BodySurface& surface) const {
@@ -95,14 +97,16 @@ void PersonShape::Save(const std::filesystem::path& path, const BodySurface& sur
   for (const double value : vote) out.Put(value);
   out.Put(weight);
   out.Put(static_cast<int32_t>(frames));
-  WriteContainer(path, kFormat, out.bytes());
+  WriteContainer(path, kPersonFormat, out.bytes());
 }
 
-bool PersonShape::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool PersonShape::IsFile(const std::filesystem::path& path) {
+  return IsContainer(path, kPersonFormat);
+}
 
 PersonShape PersonShape::Load(const std::filesystem::path& path, const BodySurface& surface) {
   return NamingTheFile(
-      path, [&] { return FromBytes(ReadContainer(path, kFormat), path.string(), surface); });
+      path, [&] { return FromBytes(ReadContainer(path, kPersonFormat), path.string(), surface); });
 }
 
 PersonShape PersonShape::FromBytes(std::span<const std::byte> bytes, const std::string& name,

@@ -12,7 +12,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr ContainerFormat kFormat = {
+constexpr ContainerFormat kLearnedFormat = {
     {'O', 'S', 'S', 'A', 'G', 'P', '0', '0'}, LearnedModels::kVersion, "learned reconstruction"};
 // Constants: versions of the format; counts by hand.
 
@@ -248,16 +248,18 @@ void LearnedModels::Save(const std::filesystem::path& path) const {
   out.Put(correction.width);
   out.Put(correction.proportions);
   PutFilter(out, filter);
-  ContainerFormat format = kFormat;
+  ContainerFormat format = kLearnedFormat;
   format.version = VersionFor(*this);
   if (format.version == kVersion) PutWindow(out, window);
   WriteContainer(path, format, out.bytes());
 }
 
-bool LearnedModels::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool LearnedModels::IsFile(const std::filesystem::path& path) {
+  return IsContainer(path, kLearnedFormat);
+}
 
 LearnedModels LearnedModels::Load(const std::filesystem::path& path) {
-  const ContainerFormat format = ReadContainerFormat(path, kFormat, kOldestVersion);
+  const ContainerFormat format = ReadContainerFormat(path, kLearnedFormat, kOldestVersion);
   return NamingTheFile(
       path, [&] { return FromBytes(ReadContainer(path, format), path.string(), format.version); });
 }

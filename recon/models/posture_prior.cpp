@@ -18,7 +18,7 @@ namespace {
 
 using BoneMatrix = Eigen::Matrix<double, kBoneDims, kBoneDims>;
 
-constexpr ContainerFormat kFormat = {
+constexpr ContainerFormat kPriorFormat = {
     {'O', 'S', 'S', 'A', 'P', 'R', '0', '0'}, PosturePrior::kVersion, "posture prior"};
 // Constants: bounds, by hand.
 
@@ -27,9 +27,9 @@ constexpr uint32_t kVersionOfNetwork = 2;
 // A mode is neither forgotten within a frame nor kept for ever.
 constexpr double kShortest_s = 0.02, kLongest_s = 1000.0;
 
-/// Sums over all frames and their mirror images; what is about the mean is made of them later, so
-/// that no motion needs to be held in memory.
-struct Sums {
+/// MomentSums over all frames and their mirror images; what is about the mean is made of them
+/// later, so that no motion needs to be held in memory.
+struct MomentSums {
   double weight = 0.0, lagged_weight = 0.0;
   uint64_t frames = 0;
   BoneVector first = BoneVector::Zero();          // of b(t)
@@ -38,7 +38,7 @@ struct Sums {
   BoneMatrix lagged_second = BoneMatrix::Zero();  // of the symmetric part of b(t) b(t + lag)'
 };
 
-void Add(const std::vector<BoneVector>& run, size_t lag, double weight, Sums& sums) {
+void Add(const std::vector<BoneVector>& run, size_t lag, double weight, MomentSums& sums) {
   if (run.empty()) return;
   const auto n = static_cast<Eigen::Index>(run.size()), ahead = static_cast<Eigen::Index>(lag);
   Eigen::MatrixXd b(kBoneDims, n);
@@ -67,7 +67,7 @@ BoneMatrix Mirror() {
   return mirror;
 }
 
-void CheckEnough(const Sums& sums, double lag_s) {
+void CheckEnough(const MomentSums& sums, double lag_s) {
   constexpr uint64_t kFewest = 100;  // a hundred numbers' mean and spread tell something
   if (sums.frames < kFewest) {
     throw InputError(
@@ -86,7 +86,7 @@ struct Moments {
   BoneMatrix covariance = BoneMatrix::Zero(), lagged = BoneMatrix::Zero();
 };
 
-Moments ComputeMoments(const Sums& sums) {
+Moments ComputeMoments(const MomentSums& sums) {
   const BoneMatrix mirror = Mirror();
   const auto both_sides = [&](const BoneMatrix& m) -> BoneMatrix {
     return 0.5 * (m + mirror * m * mirror.transpose());
@@ -175,7 +175,7 @@ Posture PostureFromBones(const BoneVector& bones_m) {
 PosturePrior PosturePrior::Learn(const std::vector<PriorClip>& clips,
                                  const PosturePriorOptions& options) {
   options.Check();
-  Sums sums;
+  MomentSums sums;
   for (const PriorClip& clip : clips) {
     const auto lag = static_cast<size_t>(std::max(1.0, std::round(options.lag_s / clip.frame_s)));
     for (const auto& run : NormalisedRuns(clip)) Add(run, lag, clip.weight, sums);
@@ -219,7 +219,7 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
                                    Eigen::MatrixXd(correlation_time_s), modes_m}) {
     put(m);
   }
-  ContainerFormat format = kFormat;
+  ContainerFormat format = kPriorFormat;
   if (network.empty()) {
     format.version = kVersionOfNetwork - 1;  // what older programs read
   } else {
@@ -229,10 +229,12 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
   WriteContainer(path, format, out.bytes());
 }
 
-bool PosturePrior::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool PosturePrior::IsFile(const std::filesystem::path& path) {
+  return IsContainer(path, kPriorFormat);
+}
 
 PosturePrior PosturePrior::Load(const std::filesystem::path& path) {
-  const ContainerFormat format = ReadContainerFormat(path, kFormat, 1);
+  const ContainerFormat format = ReadContainerFormat(path, kPriorFormat, 1);
   return NamingTheFile(
       path, [&] { return FromBytes(ReadContainer(path, format), path.string(), format.version); });
 }

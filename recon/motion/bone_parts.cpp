@@ -36,9 +36,9 @@ struct Side {
 constexpr std::array<Side, 2> kSides = {Side{{"left", "l"}}, Side{{"right", "r"}}};
 
 /// The joints of one rig by their simplified names without what all begin and end with.
-class Names {
+class AffixedNames {
  public:
-  Names(const SourceMotion& motion, std::string_view prefix, std::string_view suffix) {
+  AffixedNames(const SourceMotion& motion, std::string_view prefix, std::string_view suffix) {
     for (size_t j = 0; j < motion.joints.size(); ++j) {
       std::string_view name = motion.joints[j].name;
       if (!name.starts_with(prefix)) continue;
@@ -108,7 +108,7 @@ class Tree {
   const std::vector<SourceJoint>& joints_;
 };
 
-SideBones FindSide(const Names& names, size_t side) {
+SideBones FindSide(const AffixedNames& names, size_t side) {
   const auto find = [&](const Words& words) { return names.FindSided(words, side); };
   SideBones bones;
   bones.arm = find(kArmWords);
@@ -164,7 +164,7 @@ int FindHeadOfSpine(const SourceMotion& motion, const Tree& tree, int chest) {
   return head;
 }
 
-std::optional<SourceBones> FindWith(const SourceMotion& motion, const Names& names) {
+std::optional<SourceBones> FindWith(const SourceMotion& motion, const AffixedNames& names) {
   const Tree tree(motion.joints);
   SourceBones bones;
   for (size_t s = 0; s < 2; ++s) {
@@ -247,7 +247,7 @@ std::string SimplifyJointName(std::string_view name) {
 std::optional<SourceBones> FindBonesByParts(const SourceMotion& motion) {
   const std::string suffix = CommonSuffix(motion.joints);
   for (const std::string& prefix : CommonPrefixes(motion.joints)) {
-    if (auto bones = FindWith(motion, Names(motion, prefix, suffix))) return bones;
+    if (auto bones = FindWith(motion, AffixedNames(motion, prefix, suffix))) return bones;
   }
   return std::nullopt;
 }

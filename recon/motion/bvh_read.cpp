@@ -16,8 +16,8 @@ namespace ossa::recon {
 namespace {
 
 constexpr size_t kMaxJoints = 2000;  // a damaged file must not fill the memory; a bound, by hand
-constexpr std::array<std::string_view, 6> kChannelNames = {"xposition", "yposition", "zposition",
-                                                           "xrotation", "yrotation", "zrotation"};
+constexpr std::array<std::string_view, 6> kLowerCaseChannels = {
+    "xposition", "yposition", "zposition", "xrotation", "yrotation", "zrotation"};
 
 class Parser {
  public:
@@ -97,11 +97,12 @@ class Parser {
     }
     for (int i = 0; i < static_cast<int>(count); ++i) {
       const std::string_view word = scan_.Word();
-      const auto name = std::find(kChannelNames.begin(), kChannelNames.end(), Lower(word));
-      if (name == kChannelNames.end()) {
+      const auto name =
+          std::find(kLowerCaseChannels.begin(), kLowerCaseChannels.end(), Lower(word));
+      if (name == kLowerCaseChannels.end()) {
         scan_.Fail("a channel such as Xposition or Zrotation", word);
       }
-      const auto channel = static_cast<BvhChannel>(name - kChannelNames.begin());
+      const auto channel = static_cast<BvhChannel>(name - kLowerCaseChannels.begin());
       if (std::count(joint.channels.begin(), joint.channels.end(), channel) > 0) {
         scan_.Fail("each channel once in joint " + joint.name, word);
       }

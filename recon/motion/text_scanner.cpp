@@ -26,7 +26,7 @@ size_t CountDecimals(std::string_view number) {
   return point == std::string_view::npos ? 0 : number.size() - point - 1;
 }
 
-std::string Quoted(std::string_view found) {
+std::string InQuotes(std::string_view found) {
   if (found.empty()) return "the end of the file";
   std::string shown;
   for (const char c : found.substr(0, kQuotedCharacters)) shown += (c < 32 || c == 127) ? '?' : c;
@@ -47,7 +47,7 @@ TextScanner::TextScanner(std::string text, std::string source)
 
 void TextScanner::Fail(const std::string& expected, std::string_view found) const {
   throw InputError(source_ + ": line " + std::to_string(word_line_) + ": expected " + expected +
-                   ", found " + Quoted(found));
+                   ", found " + InQuotes(found));
 }
 
 void TextScanner::SkipBlank() {

@@ -17,7 +17,7 @@ namespace {
 // Constants: by hand, of the format, and part of every pose network; without a unit in their name
 // they are ratios, counts or logarithms.
 
-constexpr ContainerFormat kFormat = {
+constexpr ContainerFormat kPoseNetworkFormat = {
     {'O', 'S', 'S', 'A', 'P', 'N', '0', '0'}, PoseNetwork::kVersion, "pose network"};
 
 constexpr float kDepthScale = 2.0F;  // inputs a metre
@@ -215,15 +215,17 @@ void PoseNetwork::Save(const std::filesystem::path& path) const {
     PutHalves(out, std::span(layer.weight.data(), static_cast<size_t>(layer.weight.size())));
     out.PutArray(std::span<const float>(layer.bias.data(), static_cast<size_t>(layer.bias.size())));
   }
-  WriteContainer(path, kFormat, out.bytes());
+  WriteContainer(path, kPoseNetworkFormat, out.bytes());
 }
 
 PoseNetwork PoseNetwork::Load(const std::filesystem::path& path) {
-  return NamingTheFile(path,
-                       [&] { return FromBytes(ReadContainer(path, kFormat), path.string()); });
+  return NamingTheFile(
+      path, [&] { return FromBytes(ReadContainer(path, kPoseNetworkFormat), path.string()); });
 }
 
-bool PoseNetwork::IsFile(const std::filesystem::path& path) { return IsContainer(path, kFormat); }
+bool PoseNetwork::IsFile(const std::filesystem::path& path) {
+  return IsContainer(path, kPoseNetworkFormat);
+}
 
 PoseNetwork PoseNetwork::FromNumbers(std::span<const float> numbers, uint64_t people,
                                      const std::string& name) {

@@ -13,7 +13,7 @@
 namespace ossa::recon {
 namespace {
 
-constexpr ContainerFormat kFormat = {
+constexpr ContainerFormat kCascadeFormat = {
     {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, RefinementCascade::kVersion, "refinement cascade"};
 // Constants: of the format (zstd level), and bounds against damaged files.
 
@@ -91,7 +91,7 @@ FileCounts ReadNetworks(std::span<const std::byte> bytes, const std::string& nam
 template <typename Read>
 auto ReadPayload(const std::filesystem::path& path, const Read& read) {
   const ContainerFormat format =
-      ReadContainerFormat(path, kFormat, RefinementCascade::kOldestVersion);
+      ReadContainerFormat(path, kCascadeFormat, RefinementCascade::kOldestVersion);
   return NamingTheFile(path, [&] {
     std::vector<std::byte> payload = ReadContainer(path, format);
     std::string name = path.string();
@@ -122,11 +122,11 @@ void RefinementCascade::Save(const std::filesystem::path& path) const {
     PutStageNetwork(out, bones);
     PutStages(out, bone_conditioned);
   }
-  WriteContainer(path, kFormat, Compress(out.bytes(), kCompressionLevel));
+  WriteContainer(path, kCascadeFormat, Compress(out.bytes(), kCompressionLevel));
 }
 
 bool RefinementCascade::IsFile(const std::filesystem::path& path) {
-  return IsContainer(path, kFormat);
+  return IsContainer(path, kCascadeFormat);
 }
 
 RefinementCascade RefinementCascade::Load(const std::filesystem::path& path) {
