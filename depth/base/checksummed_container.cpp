@@ -2,6 +2,8 @@
 
 #include <xxhash.h>
 
+#include <system_error>
+
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/large_pages.h"
@@ -117,7 +119,10 @@ std::vector<std::byte> ReadContainer(const std::filesystem::path& path,
                                      const ContainerFormat& format) {
   std::ifstream file = OpenFile(path, std::ios::ate);
   if (!file) {
-    throw InputError(path.string() + ": cannot be read: expected a " + std::string(format.what));
+    std::error_code unknown;
+    const bool is_there = std::filesystem::exists(path, unknown);
+    throw InputError(path.string() + (is_there ? ": cannot be read" : ": no such file") +
+                     ": expected a " + std::string(format.what));
   }
   const auto size = static_cast<uint64_t>(file.tellg());
   file.seekg(0);

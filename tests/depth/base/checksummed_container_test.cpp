@@ -76,6 +76,14 @@ TEST(ChecksummedContainer, AnotherFileIsRefusedByItsHeaderBeforeAllocating) {
   }
 }
 
+TEST(ChecksummedContainer, OneThatIsNotThereIsSaidToBeMissing) {
+  const test::TemporaryFolder folder;
+  test::ExpectRefused([&] { ReadContainer(folder / "none", kFormat); },
+                      "none: no such file: expected a test file");
+  test::ExpectRefused([&] { ReadContainer(folder.path(), kFormat); },
+                      ": cannot be read: expected a test file");
+}
+
 TEST(ChecksummedContainer, ShorterThanItsHeaderIsRefused) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "short") << "ossatest";
