@@ -35,28 +35,49 @@ bool HasCeilingModel() {
   if (!HasCeilingModel()) GTEST_SKIP() << "no shipped body_ceiling models"; \
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body"
 
-// Somebody in motion in a room, from the ceiling.
+// A camera, and the room that it sees.
+struct Place {
+  tools::View view;
+  tools::Background background;
+  uint64_t seed;
+  bool is_clip;  // else another body and camera in each image
+};
+
+// So many images of somebody in motion; of a clip by an Xtion, else by a Kinect v1.
+std::vector<LabelledFrame> Shoot(const Place& place, int poses, int images) {
+  tools::FrameOptions options;
+  options.width = 320;
+  options.height = 240;
+  options.view = place.view;
+  options.split = tools::Split::kTest;
+  options.sequence = place.is_clip;
+  if (place.is_clip) options.sensors = {depth::SensorKind::kXtion};
+  options.background = place.background;
+  options.seed = place.seed;
+  const tools::FrameStudio studio(
+      tools::LoadFetchedBody(), tools::SequencePoses(AuthoredMotion(), poses, place.seed), options);
+  tools::FrameMaker maker(studio);
+  std::vector<LabelledFrame> made;
+  for (int i = 0; i < images; ++i) made.push_back(maker.Make(i));
+  return made;
+}
+
 const std::vector<LabelledFrame>& CeilingClip() {
-  static const std::vector<LabelledFrame> clip = [] {
-    constexpr int kFrames = 10;
-    tools::FrameOptions options;
-    options.width = 320;
-    options.height = 240;
-    options.view = tools::View::kCeiling;
-    options.split = tools::Split::kTest;
-    options.sequence = true;
-    options.sensors = {depth::SensorKind::kXtion};
-    options.background = tools::Background::kRoom;
-    options.seed = 2;
-    const tools::FrameStudio studio(tools::LoadFetchedBody(),
-                                    tools::SequencePoses(AuthoredMotion(), kFrames, options.seed),
-                                    options);
-    tools::FrameMaker maker(studio);
-    std::vector<LabelledFrame> made;
-    for (int i = 0; i < kFrames; ++i) made.push_back(maker.Make(i));
-    return made;
-  }();
+  static const std::vector<LabelledFrame> clip =
+      Shoot({tools::View::kCeiling, tools::Background::kRoom, 2, true}, 10, 10);
   return clip;
+}
+
+// How many of so many images, each alone, are taken for a ceiling's.
+int CountCeilings(const Place& place, int images) {
+  Tracker tracker;
+  int ceilings = 0;
+  for (const LabelledFrame& shot : Shoot(place, 300, images)) {
+    tracker.Reset();
+    tracker.Track(shot.depth);
+    ceilings += tracker.mount() == Mount::kCeiling ? 1 : 0;
+  }
+  return ceilings;
 }
 
 // A person before a wall, no floor in view: the wall is as flat and as far as a floor would be.
@@ -106,24 +127,12 @@ TEST(Mount, OfACeilingIsFoundOutInTheFirstFrameAndOneBodyWithIt) {
 // By the weights of level cameras a piece of a shelf is a second person.
 TEST(Mount, UnderACeilingFurnitureDoesNotBecomeAPersonByAndBy) {
   OSSA_NEEDS_CEILING();
-  constexpr int kFrames = 24;
-  tools::FrameOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.view = tools::View::kCeiling;
-  options.split = tools::Split::kTest;
-  options.sequence = true;
-  options.sensors = {depth::SensorKind::kXtion};
-  options.background = tools::Background::kLivedIn;
-  options.seed = 2;
-  const tools::FrameStudio studio(
-      tools::LoadFetchedBody(), tools::SequencePoses(AuthoredMotion(), 240, options.seed), options);
-  tools::FrameMaker maker(studio);
   TrackerOptions under_ceiling;
   under_ceiling.mount = Mount::kCeiling;
   Tracker tracker(under_ceiling);
-  for (int i = 0; i < kFrames; ++i) {
-    EXPECT_EQ(tracker.Track(maker.Make(i).depth).bodies.size(), 1U) << i;
+  const Place shop{tools::View::kCeiling, tools::Background::kLivedIn, 2, true};
+  for (const LabelledFrame& shot : Shoot(shop, 240, 24)) {
+    EXPECT_EQ(tracker.Track(shot.depth).bodies.size(), 1U) << shot.depth.index;
   }
 }
 
@@ -282,23 +291,7 @@ TEST(Mount, OfACeilingFramesThatALagHoldsBackComeOnce) {
 // but the body goes on below the image. Without that rule some of these change over.
 TEST(Mount, OfALevelCameraWithSomebodyNearStaysLevel) {
   OSSA_NEEDS_CEILING();
-  constexpr int kImages = 60;
-  tools::FrameOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.view = tools::View::kNear;
-  options.split = tools::Split::kTest;
-  options.background = tools::Background::kLivedIn;
-  options.seed = 5;
-  const tools::FrameStudio studio(
-      tools::LoadFetchedBody(), tools::SequencePoses(AuthoredMotion(), 300, options.seed), options);
-  tools::FrameMaker maker(studio);
-  Tracker tracker;
-  for (int i = 0; i < kImages; ++i) {
-    tracker.Reset();
-    tracker.Track(maker.Make(i).depth);
-    EXPECT_EQ(tracker.mount(), Mount::kLevel) << i;
-  }
+  EXPECT_EQ(CountCeilings({tools::View::kNear, tools::Background::kLivedIn, 5, false}, 60), 0);
 }
 
 TEST(Mount, OfALevelCameraBeforeAWallStaysLevel) {
@@ -319,25 +312,7 @@ TEST(Mount, OfALevelCameraBeforeAWallStaysLevel) {
 // the image's border.
 TEST(Mount, OfACeilingIsFoundOutWhereAWallPassesForAFloor) {
   OSSA_NEEDS_CEILING();
-  constexpr int kImages = 24;
-  tools::FrameOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.view = tools::View::kCeiling;
-  options.split = tools::Split::kTest;
-  options.background = tools::Background::kLivedIn;
-  options.seed = 2;
-  const tools::FrameStudio studio(
-      tools::LoadFetchedBody(), tools::SequencePoses(AuthoredMotion(), 300, options.seed), options);
-  tools::FrameMaker maker(studio);
-  Tracker tracker;
-  int found = 0;
-  for (int i = 0; i < kImages; ++i) {
-    tracker.Reset();
-    tracker.Track(maker.Make(i).depth);
-    found += tracker.mount() == Mount::kCeiling ? 1 : 0;
-  }
-  EXPECT_GE(found, 14);
+  EXPECT_GE(CountCeilings({tools::View::kCeiling, tools::Background::kLivedIn, 2, false}, 24), 14);
 }
 
 BodyFrame LevelLook(double time_s) {
