@@ -31,7 +31,10 @@ bool MountFinder::IsDue(const BodyFrame& tracked) {
   if (is_level_ || (since_s >= 0 && since_s < options_.every_s)) return false;
   looked_s_ = tracked.time_s;
   const bool seems_level = tracked.floor && !tracked.bodies.empty();
-  if (seems_level) Confirm(View::kLevel);
+  if (seems_level) {
+    Confirm(View::kLevel);
+    is_level_ = ++level_looks_ >= options_.agreeing;
+  }
   return !seems_level;
 }
 
@@ -43,9 +46,8 @@ bool MountFinder::Confirm(View seen) {
   const bool is_first = ++looks_ == 1;
   if (seen == View::kUnknown) return false;
   const bool from_above = seen == View::kFromAbove;
-  level_looks_ = from_above ? 0 : level_looks_ + 1;
+  if (from_above) level_looks_ = 0;
   above_looks_ = from_above ? above_looks_ + 1 : 0;
-  is_level_ = level_looks_ >= options_.agreeing;
   return from_above && (is_first || above_looks_ >= options_.agreeing);
 }
 

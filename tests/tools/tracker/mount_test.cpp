@@ -348,6 +348,18 @@ TEST(Mount, IsAskedForWhereAFloorIsAllThatIsLevel) {
   }
 }
 
+// Before a wall who works there all day has no floor in view; from the ceiling the level forest is
+// often sure, too, and wrong.
+TEST(Mount, IsAskedForHoweverOftenSomebodyWithoutAFloorSeemsLevel) {
+  MountFinder finder;
+  for (int i = 0; i < 5; ++i) {
+    BodyFrame tracked = LevelLook(i);
+    tracked.floor.reset();
+    EXPECT_TRUE(finder.IsDue(tracked));
+    finder.Confirm(MountFinder::View::kLevel);
+  }
+}
+
 TEST(Mount, WhoGoesOnBelowTheImageCountsAtLaterLooksAtNobody) {
   MountFinder finder;
   const BodyFrame nobody;
