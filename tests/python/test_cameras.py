@@ -16,6 +16,12 @@ FOLDER = pathlib.Path(__file__).resolve().parents[2] / "tools/python/cameras"
 EXAMPLES = sorted(FOLDER.glob("*.py"))
 
 
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path, monkeypatch):
+    """pyorbbecsdk writes a log into the working folder as soon as it is imported."""
+    monkeypatch.chdir(tmp_path)
+
+
 def example(name, *wheels):
     """The example as a module, where its maker's wheel can be had."""
     for wheel in wheels:
