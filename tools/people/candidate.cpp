@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "depth/scene/region_pixels.h"
+#include "depth/scene/silhouette.h"
 #include "tools/people/planar_occluder.h"
 #include "tools/people/split_regions.h"
 
@@ -18,6 +19,23 @@ Decision DescribeRegion(const Region& region, Rule rule) {
   decision.size_m = (region.high_m - region.low_m).cast<double>();
   decision.area_m2 = static_cast<double>(region.area_m2);
   return decision;
+}
+
+Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region piece, bool has_head,
+                        int region_index, const CandidateOptions& options) {
+  const auto& foreground = scene.background.foreground;
+  Candidate candidate;
+  candidate.pixels = CollectPixels(frame, scene.grid, piece);
+  candidate.has_head = has_head;
+  candidate.flat_share = MeasureShare(piece, scene.surfaces.flat);
+  candidate.plane = FitWholePlane(piece, scene.surfaces, options.occluder);
+  candidate.foreground_share = MeasureShare(piece, foreground);
+  candidate.foreground_m2 = MeasureForegroundArea_m2(scene.grid, piece.cells, foreground);
+  candidate.occluded_share =
+      depth::MeasureOccludedShare(scene.grid, scene.floor, piece, options.silhouette);
+  candidate.region_index = region_index;
+  candidate.region = std::move(piece);
+  return candidate;
 }
 
 std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& frame,

@@ -37,6 +37,11 @@ inline bool IsForeground(const Candidate& candidate) {
 /// A decision on what was not classified.
 Decision DescribeRegion(const Region& region, Rule rule);
 
+/// A piece of the scene with all that geometry says of it. `region_index`: of the connected region
+/// that it is of; -1 for several.
+Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region piece, bool has_head,
+                        int region_index, const CandidateOptions& options);
+
 /// A candidate cut into one for each of several heads (camera space, metres), without those too
 /// small for a person; as it is where fewer than two of the heads lie on it.
 std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& frame,

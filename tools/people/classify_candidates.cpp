@@ -7,6 +7,7 @@
 #include "depth/base/threads.h"
 #include "depth/scene/region_pixels.h"
 #include "recon/body/standard_body.h"
+#include "tools/people/join_pieces.h"
 #include "tools/people/occlusion_merge.h"
 #include "tools/people/pose_evidence.h"
 #include "tools/people/split_regions.h"
@@ -220,21 +221,60 @@ bool Passes(const Detection& detection, const InitiationOptions& options) {
          (IsJudgedByPose(detection) ? options.person_by_pose : options.new_person);
 }
 
-// Where nobody is found: what is no person as it stands may be one and the furniture that they
-// touch. Beside somebody it would as often be what they hold.
+bool IsAnybodyFound(const std::vector<Detection>& detections, const InitiationOptions& options) {
+  return std::any_of(detections.begin(), detections.end(), [&](const Detection& detection) {
+    return detection.candidate.track >= 0 || Passes(detection, options);
+  });
+}
+
+// What is no person as it stands may be one and the furniture that they touch. Beside somebody it
+// would as often be what they hold.
 void LookAgainAroundHeads(const Classifying& with, std::vector<Detection>& detections,
                           std::vector<Decision>& decided) {
-  const InitiationOptions& initiation = with.options.initiation;
-  const auto is_somebody = [&](const Detection& detection) {
-    return detection.candidate.track >= 0 || Passes(detection, initiation);
-  };
-  if (std::any_of(detections.begin(), detections.end(), is_somebody)) return;
+  const double needed = with.options.initiation.person_by_pose;
   for (Detection& detection : detections) {
     auto piece = FindSomebodyWithin(with, detection);
     if (!piece) continue;
-    decided.push_back(DescribeDetection(detection, Rule::kSplitAtHeads, initiation.person_by_pose));
+    decided.push_back(DescribeDetection(detection, Rule::kSplitAtHeads, needed));
     detection = std::move(*piece);
   }
+}
+
+// Pieces that are nobody, and of which most are too small to be asked about, may be one person of
+// whom an arm or something held up occludes the middle.
+void LookAgainOverEdges(const Classifying& with, std::vector<Detection>& detections,
+                        std::vector<Decision>& decided) {
+  const CandidateOptions& options = with.options.candidates;
+  const auto classify = [&](Region region) {
+    Detection detection =
+        Classify(with, MakeCandidate(with.frame, with.scene, std::move(region), true, -1, options));
+    WeighPose(with, detection);
+    return detection;
+  };
+  const std::vector<Region> pieces =
+      depth::FindConnectedRegions(with.scene.grid, with.scene.surfaces.room, options.join.piece_m2);
+  std::vector<Detection> wholes = GrowOverEdges(with.scene.grid, pieces, classify, options);
+  std::erase_if(wholes, [&](const Detection& whole) {
+    const Region& region = whole.candidate.region;
+    const bool shows_enough =
+        IsPersonSized(region, options) || GoesOnBelow(with.scene.grid, region, options.join);
+    return !shows_enough || !IsJudgedByPose(whole) || !Passes(whole, with.options.initiation);
+  });
+  const auto whole = std::ranges::max_element(wholes, {}, MeasureLikeness);
+  if (whole == wholes.end()) return;
+  const std::vector<int>& cells = whole->candidate.region.cells;
+  const auto is_part = [&](const Detection& detection) {
+    return std::ranges::any_of(detection.candidate.region.cells, [&](int cell) {
+      return std::binary_search(cells.begin(), cells.end(), cell);
+    });
+  };
+  for (const Detection& detection : detections) {
+    if (is_part(detection))
+      decided.push_back(DescribeDetection(detection, Rule::kMerged, whole->evidence.score));
+  }
+  std::erase_if(detections, is_part);
+  whole->is_joined = true;
+  detections.push_back(std::move(*whole));
 }
 
 // Bones between proposals of neighbouring joints, as far as they hang together from the trunk
@@ -379,7 +419,9 @@ std::vector<Detection> ClassifyCandidates(const Classifying& with,
   if (with.classifier.network == nullptr) return result;
   ParallelFor(result.size(), with.options.threads, [&](size_t i) { WeighPose(with, result[i]); });
   if (!with.scene.fresh) return result;
-  LookAgainAroundHeads(with, result, decided);
+  const InitiationOptions& initiation = with.options.initiation;
+  if (!IsAnybodyFound(result, initiation)) LookAgainAroundHeads(with, result, decided);
+  if (!IsAnybodyFound(result, initiation)) LookAgainOverEdges(with, result, decided);
   MergeParts(with, TryAsSamePose, result, decided);
   return result;
 }

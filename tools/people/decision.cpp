@@ -53,6 +53,8 @@ constexpr std::array<RuleEntry, static_cast<size_t>(Rule::kCount)> kRules = {{
      "the mean score of several observations is high enough"},
     {Rule::kPieceWithHead, "piece_with_head", Outcome::kConfirmed,
      "a piece around one of several heads, and the score is high enough"},
+    {Rule::kJoinedPieces, "joined_pieces", Outcome::kConfirmed,
+     "pieces that something nearer divides, or the image's border leaves, look like a person"},
 }};
 
 constexpr bool EntriesAreInOrder() {

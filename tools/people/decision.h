@@ -33,6 +33,7 @@ enum class Rule {
   kEntered,
   kEnoughObservations,
   kPieceWithHead,
+  kJoinedPieces,
   kCount
 };
 

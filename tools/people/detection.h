@@ -34,9 +34,10 @@ struct Detection {
   Candidate candidate;
   ForestEvidence evidence;
   TrackPrior prior;
-  double score = 0.0;     // that it is a person: mean over the frames, [0, 1]
-  int age = 1;            // detections of the track, this one included
-  bool is_piece = false;  // cut off around one of several heads
+  double score = 0.0;      // that it is a person: mean over the frames, [0, 1]
+  int age = 1;             // detections of the track, this one included
+  bool is_piece = false;   // cut off around one of several heads
+  bool is_joined = false;  // of pieces that are nobody by themselves
   Judge judge = Judge::kForest;
   std::optional<recon::NetworkPose> pose{};  // what the network read in these pixels
   Decision decision;                         // why it is a person, or none

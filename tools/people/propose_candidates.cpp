@@ -4,12 +4,9 @@
 #include <cmath>
 #include <span>
 
-#include "depth/scene/region_pixels.h"
-#include "depth/scene/silhouette.h"
 #include "tools/people/merge_regions.h"
 #include "tools/people/occlusion_merge.h"
 #include "tools/people/overhead.h"
-#include "tools/people/planar_occluder.h"
 #include "tools/people/split_regions.h"
 #include "tools/people/track_prediction.h"
 
@@ -66,23 +63,6 @@ std::vector<Region> FindRegions(const Scene& scene, const std::vector<Track>& tr
   regions = MergeBesideOccluder(grid, std::move(regions), scene.background.foreground, facts.owner,
                                 tracks.size(), options);
   return MergeByTracks(grid, std::move(regions), facts.owner, tracks, time_s, options);
-}
-
-Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region piece, bool has_head,
-                        int region_index, const CandidateOptions& options) {
-  const auto& foreground = scene.background.foreground;
-  Candidate candidate;
-  candidate.pixels = CollectPixels(frame, scene.grid, piece);
-  candidate.has_head = has_head;
-  candidate.flat_share = MeasureShare(piece, scene.surfaces.flat);
-  candidate.plane = FitWholePlane(piece, scene.surfaces, options.occluder);
-  candidate.foreground_share = MeasureShare(piece, foreground);
-  candidate.foreground_m2 = MeasureForegroundArea_m2(scene.grid, piece.cells, foreground);
-  candidate.occluded_share =
-      depth::MeasureOccludedShare(scene.grid, scene.floor, piece, options.silhouette);
-  candidate.region_index = region_index;
-  candidate.region = std::move(piece);
-  return candidate;
 }
 
 std::vector<HeadBlob> ListHeads(const Scene& scene, const Region& region,

@@ -125,6 +125,7 @@ Requirement RequireAtFirst(const Detection& detection, bool fresh_scene,
                            const InitiationOptions& options) {
   const Candidate& candidate = detection.candidate;
   if (candidate.may_return) return {Rule::kReturning, options.new_person};
+  if (detection.is_joined) return {Rule::kJoinedPieces, options.person_by_pose};
   if (fresh_scene && IsJudgedByPose(detection)) return {Rule::kFreshScene, options.person_by_pose};
   if (fresh_scene)
     return {Rule::kFreshScene, candidate.has_head ? options.new_person : options.sure_person};

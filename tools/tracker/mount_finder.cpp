@@ -26,11 +26,17 @@ std::vector<uint8_t> FindCutBelow(const depth::Scene& scene, const MountOptions&
 
 }  // namespace
 
+bool ShowsSomebody(const BodyFrame& tracked) {
+  const auto joined = std::ranges::count(tracked.decisions.candidates, people::Rule::kJoinedPieces,
+                                         &people::Decision::rule);
+  return std::ssize(tracked.bodies) > joined;
+}
+
 bool MountFinder::IsDue(const BodyFrame& tracked) {
   const double since_s = tracked.time_s - looked_s_;
   if (is_level_ || (since_s >= 0 && since_s < options_.every_s)) return false;
   looked_s_ = tracked.time_s;
-  const bool seems_level = tracked.floor && !tracked.bodies.empty();
+  const bool seems_level = tracked.floor && ShowsSomebody(tracked);
   if (seems_level) {
     Confirm(View::kLevel);
     is_level_ = ++level_looks_ >= options_.agreeing;
@@ -39,7 +45,7 @@ bool MountFinder::IsDue(const BodyFrame& tracked) {
 }
 
 bool MountFinder::MayBeCutBelow(const BodyFrame& tracked) const {
-  return looks_ > 0 && tracked.bodies.empty();
+  return looks_ > 0 && !ShowsSomebody(tracked);
 }
 
 bool MountFinder::Confirm(View seen) {

@@ -22,6 +22,10 @@ struct MountOptions {
   double rim_share = 0.03;    // of the image's height, [0, 1]: a sensor's rims are blind
 };
 
+/// Whether a frame that was tracked as a level camera's shows somebody who speaks for one: who had
+/// to be joined of pieces may as well be one seen from above.
+bool ShowsSomebody(const BodyFrame& tracked);
+
 /// When it is worth finding out whether the camera hangs under the ceiling, and when that is
 /// certain: not in every frame, and never again once somebody on a floor was tracked as level
 /// cameras see them in several looks in a row. A floor alone says little: from the ceiling a wall

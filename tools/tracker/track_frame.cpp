@@ -96,7 +96,7 @@ bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyF
   from_above.candidates.overhead->min_head_m = mount.min_head_m;
   using View = MountFinder::View;
   if (!MayBeFromAbove(frame, mount_finder.MayBeCutBelow(tracked), from_above, mount)) {
-    return mount_finder.Confirm(tracked.bodies.empty() ? View::kUnknown : View::kLevel);
+    return mount_finder.Confirm(ShowsSomebody(tracked) ? View::kLevel : View::kUnknown);
   }
   if (!ceiling_forest) ceiling_forest = LoadCeilingForest(models);
   const auto above_targets = people::FindJointTargets(*ceiling_forest, models.ceiling_file);

@@ -60,6 +60,36 @@ TEST(FirstLook, WhatAPoleBeforeTheMiddleLeavesOfAPersonIsOneBody) {
   }
 }
 
+// Head and trunk to the waist, and across the chest an arm's width of something nearer.
+depth::DepthFrame PersonBehindAnArm() {
+  depth::DepthFrame frame = Rendered({PersonAt(0, 1.2)}).frame;
+  const depth::Camera& camera = frame.camera;
+  for (int v = 0; v < camera.height; ++v) {
+    const double y_m = -1.2 * (v - camera.cy) / camera.fy;
+    for (int u = 0; u < camera.width; ++u) {
+      uint16_t& depth_mm = frame.depth_mm[static_cast<size_t>(v * camera.width + u)];
+      if (depth_mm > 1600 || y_m < -0.2) depth_mm = 0;
+      if (depth_mm > 0 && y_m > 0.1 && y_m < 0.25) depth_mm = 900;
+    }
+  }
+  return frame;
+}
+
+TEST(FirstLook, WhatAnArmAcrossTheChestLeavesOfAPersonIsOneBody) {
+  OSSA_NEEDS_MODEL();
+  const auto network = ModelSet::Shipped(TrackerOptions{}.method).pose_network;
+  const BodyFrame seen = FirstLook(network, PersonBehindAnArm());
+  ASSERT_EQ(seen.bodies.size(), 1U);
+  EXPECT_GT(seen.bodies[0].person_score, people::InitiationOptions{}.person_by_pose);
+  int joined = 0;
+  for (const people::Decision& decision : seen.decisions.candidates) {
+    joined += decision.rule == people::Rule::kJoinedPieces ? 1 : 0;
+    const bool is_part = decision.rule == people::Rule::kMerged;
+    EXPECT_TRUE(!is_part || decision.score < 0.1) << decision.score;
+  }
+  EXPECT_EQ(joined, 1);
+}
+
 // Somebody, and at the height of their hips things at the same depth that reach a metre to either
 // side: one piece of surface.
 depth::DepthFrame PersonBetweenThings() {
