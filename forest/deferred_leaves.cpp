@@ -19,9 +19,9 @@ namespace {
 // a still or two is done before, and a camera's are past in a quarter of a second.
 constexpr int kFewImages = 8;  // by hand
 
-// Of setpriority(2), where 19 is the least: a tenth of a processor that somebody else could use
+// Of setpriority(2), below the process's own: a tenth of a processor that somebody else could use
 // whole. By hand: with less, who ends would wait long for what the thread is at.
-constexpr int kLowPriority = 10;
+constexpr int kLowerPriority = 10;
 
 // Counts somebody who reads, without a lock that a forked process could inherit locked.
 class Reader {
@@ -112,7 +112,7 @@ void DeferredLeaves::StartMakingAll() {
 
 // On one processor: the others follow people. On Linux 0 is this thread, not its process.
 void DeferredLeaves::MakeBesideOthers() {
-  setpriority(PRIO_PROCESS, 0, kLowPriority);
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kLowerPriority);
   oneapi::tbb::task_arena arena(1);
   arena.execute([this] { MakeAll(); });
 }
