@@ -156,16 +156,9 @@ void WriteOptions::Check(const std::string& out) const {
 }
 
 recon::SkeletonWriteOptions WriteOptions::For(const std::string& out) const {
-  static const std::map<std::string, recon::BvhNames> kNames = {
-      {"cmu", recon::BvhNames::kCmu},
-      {"mixamo", recon::BvhNames::kMixamo},
-      {"vrm", recon::BvhNames::kVrm}};
-  recon::SkeletonWriteOptions options;
-  if (const auto known = kNames.find(names); known != kNames.end()) options.names = known->second;
-  if (fs::path(out).extension() == ".glb" && mesh != "none") {
-    options.body = tracker::LoadBodyMesh(surface, mesh);
-  }
-  return options;
+  const bool is_glb = fs::path(out).extension() == ".glb";
+  // --surface is also what is fitted, of whatever is written.
+  return tracker::LoadWriteOptions(out, {names, is_glb ? surface : "", mesh});
 }
 
 void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence,

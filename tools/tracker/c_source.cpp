@@ -4,10 +4,14 @@
 #include <memory>
 #include <string>
 
+#include "depth/base/error.h"
 #include "depth/base/one_line.h"
 #include "depth/image/camera_io.h"
+#include "depth/sensor/depth_coding.h"
 #include "depth/sensor/frame_source.h"
 #include "tools/tracker/c_interface_internal.h"
+#include "tools/tracker/c_tracker_internal.h"
+#include "tools/tracker/camera_search.h"
 
 struct ossa_source {
   struct Note {
@@ -24,6 +28,8 @@ struct ossa_source {
 
 namespace {
 
+using ossa::tracker::ReadStruct;
+using ossa::tracker::TextOr;
 using std::chrono::duration;
 using std::chrono::duration_cast;
 using std::chrono::milliseconds;
@@ -40,7 +46,7 @@ void RequireInRange(double value, const char* member) {
 ossa::depth::SourceOptions OptionsFrom(const ossa_source_options* given) {
   ossa::depth::SourceOptions options;
   if (given == nullptr) return options;
-  const auto c = ossa::tracker::ReadStruct(*given, "ossa_source_options");
+  const auto c = ReadStruct(*given);
   if (c.camera != nullptr) options.camera = ossa::depth::ParseCamera(c.camera);
   RequireInRange(c.depth_scale, "depth_scale");
   RequireInRange(c.fps, "fps");
@@ -48,6 +54,13 @@ ossa::depth::SourceOptions OptionsFrom(const ossa_source_options* given) {
   if (c.depth_scale > 0) options.depth_scale = c.depth_scale;
   if (c.fps > 0) options.fps = c.fps;
   options.device_wait = duration_cast<milliseconds>(duration<double>(c.wait_s));
+  const auto coding = ossa::depth::ParseDepthFormat(TextOr(c.depth_format, "plain"));
+  options.depth_format = coding.format;
+  options.inverted_from = coding.inverted_from;
+  if (c.reserved != 0) {
+    throw std::invalid_argument("ossa_source_options.reserved: expected 0, found " +
+                                std::to_string(c.reserved));
+  }
   return options;
 }
 
@@ -64,12 +77,33 @@ ossa_depth_image ImageFrom(const ossa::depth::DepthFrame& frame) {
   return image;
 }
 
+using Notes = std::deque<ossa_source::Note>;
+
+// What stops the search stops the source, too, and is told of when that is opened.
+void FindCamera(const std::string& name, ossa::depth::SourceOptions& options, Notes& notes) {
+  if (options.camera) return;
+  ossa::depth::SourceOptions silent = options;
+  silent.note = {};
+  try {
+    const auto finding = ossa::tracker::FindNarrowerCamera(
+        name, silent, [] { return ossa::tracker::TrackerOptions(); }, [] { return true; });
+    if (!finding) return;
+    options.camera = ossa::depth::ParseCamera(ossa::tracker::CameraText(finding->found));
+    notes.push_back(
+        {ossa::depth::NoteKind::kInfo, ossa::OnOneLine(name + ": " + Describe(*finding))});
+  } catch (const ossa::InputError&) {
+  }
+}
+
 std::unique_ptr<ossa_source> Opened(const std::string& name, const ossa_source_options* given) {
   auto source = std::make_unique<ossa_source>();
   ossa::depth::SourceOptions options = OptionsFrom(given);
   options.note = [&notes = source->notes](ossa::depth::NoteKind kind, const std::string& text) {
     notes.push_back({kind, ossa::OnOneLine(text)});
   };
+  if (given != nullptr && ReadStruct(*given).find_camera != 0) {
+    FindCamera(name, options, source->notes);
+  }
   source->frames = ossa::depth::OpenSource(name, options);
   return source;
 }
@@ -81,6 +115,8 @@ ossa_status StatusOf(ossa::depth::ReadStatus status) {
 }
 
 }  // namespace
+
+ossa::depth::FrameSource& ossa::tracker::FramesOf(ossa_source& source) { return *source.frames; }
 
 ossa_source* ossa_source_open(const char* source, const ossa_source_options* options) {
   ossa_source* opened = nullptr;
@@ -98,12 +134,12 @@ ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth
   return ossa::tracker::Guarded([&] {
     ossa::tracker::RequireNotNull(source, "ossa_source_read", "a source");
     ossa::tracker::RequireNotNull(image, "ossa_source_read", "an image");
-    ossa::tracker::CheckSize(*image, "ossa_depth_image");  // before a frame is taken
+    ossa::tracker::CheckSize(*image);  // before a frame is taken
     auto read = source->frames->Read(milliseconds(std::max(0, timeout_ms)));
     source->dropped += read.dropped;
     if (read.status == ossa::depth::ReadStatus::kFrame) {
       source->last = std::move(read.frame);
-      ossa::tracker::FillStruct(ImageFrom(source->last), "ossa_depth_image", image);
+      ossa::tracker::FillStruct(ImageFrom(source->last), image);
     }
     return StatusOf(read.status);
   });

@@ -1,18 +1,14 @@
 // The tracker behind ossa_c.h.
-#include <algorithm>
-#include <array>
+#include <cstdio>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "depth/base/error.h"
+#include "recon/body/parts.h"
+#include "tools/tracker/body_mesh_file.h"
 #include "tools/tracker/c_interface_internal.h"
-#include "tools/tracker/tracker.h"
-
-struct ossa_tracker {
-  ossa::tracker::Tracker tracker;
-  ossa::tracker::BodyFrame last;
-};
+#include "tools/tracker/c_tracker_internal.h"
 
 namespace {
 
@@ -22,152 +18,68 @@ using ossa::tracker::FillStruct;
 using ossa::tracker::Guarded;
 using ossa::tracker::ReadStruct;
 using ossa::tracker::RequireNotNull;
-
-// A member added to a struct must lie behind all that older programs know of it, padding included.
-template <typename T, typename Last>
-constexpr bool EndsWith(size_t offset) {
-  return offset + sizeof(Last) == sizeof(T);
-}
-static_assert(EndsWith<ossa_options, const char*>(offsetof(ossa_options, mount)));
-static_assert(EndsWith<ossa_source_options, double>(offsetof(ossa_source_options, wait_s)));
-static_assert(EndsWith<ossa_depth_image, double>(offsetof(ossa_depth_image, time_s)));
-static_assert(EndsWith<ossa_body, float[OSSA_JOINT_COUNT][3]>(offsetof(ossa_body,
-                                                                       reconstructed_m)));
-static_assert(EndsWith<ossa_frame, const uint8_t*>(offsetof(ossa_frame, users)));
-static_assert(EndsWith<ossa_smooth_parameters, float>(offsetof(ossa_smooth_parameters,
-                                                               max_deviation_radius_m)));
-
-static_assert(OSSA_JOINT_COUNT == ossa::recon::kJointCount);
-static_assert(OSSA_FOOT_RIGHT == static_cast<int>(ossa::recon::Joint::kFootRight));
-
-std::string TextOr(const char* text, const char* otherwise) {
-  return text == nullptr ? otherwise : text;
-}
-
-// Files that a method does not read would be left out in silence; as Python's, the call fails.
-void CheckFilesAreRead(const ossa::tracker::ModelFiles& files, const std::string& method) {
-  const ossa::recon::MethodInfo& info = ossa::recon::RequireMethod(method);
-  const auto check = [&](const std::string& file, bool is_read, const char* member) {
-    if (is_read || file.empty() || file == "none") return;
-    throw ossa::InputError("ossa_options." + std::string(member) +
-                           ": expected a method that reads it, found '" + method + "'");
-  };
-  check(files.learned, info.learned != ossa::recon::Reads::kNothing, "learned");
-  check(files.prior, info.prior, "prior");
-  check(files.database, info.database != ossa::recon::Reads::kNothing, "database");
-}
-
-/// One of `names`, by its number. Throws InputError for another.
-template <typename Choice, size_t N>
-Choice ChoiceFrom(const std::array<std::string_view, N>& names, const std::string& given,
-                  const char* member) {
-  const auto known = std::find(names.begin(), names.end(), given);
-  if (known != names.end()) return static_cast<Choice>(known - names.begin());
-  std::string expected;
-  for (const std::string_view name : names)
-    expected.append(expected.empty() ? "" : ", ").append(name);
-  throw ossa::InputError("ossa_options." + std::string(member) + ": expected " + expected +
-                         ", found '" + given + "'");
-}
-
-ossa::tracker::Turn TurnFrom(const std::string& rotate) {
-  constexpr std::array<std::string_view, 5> kNames = {"0", "90", "180", "270", "auto"};
-  return ChoiceFrom<ossa::tracker::Turn>(kNames, rotate, "rotate");
-}
-
-ossa::tracker::Mount MountFrom(const std::string& mount) {
-  constexpr std::array<std::string_view, 3> kNames = {"auto", "level", "ceiling"};
-  return ChoiceFrom<ossa::tracker::Mount>(kNames, mount, "mount");
-}
-
-ossa::tracker::TrackerOptions OptionsFrom(const ossa_options* given) {
-  ossa::tracker::TrackerOptions options;
-  if (given == nullptr) return options;
-  const ossa_options c = ReadStruct(*given, "ossa_options", {offsetof(ossa_options, rotate)});
-  if (c.method != nullptr) options.method = c.method;
-  ossa::tracker::ModelFiles files;
-  files.forest = TextOr(c.model, "");
-  files.refinement = TextOr(c.refinement, "");
-  files.learned = TextOr(c.learned, "");
-  files.prior = TextOr(c.prior, "");
-  files.database = TextOr(c.database, "");
-  CheckFilesAreRead(files, options.method);
-  options.models = ossa::tracker::ModelSet::Load(files, options.method);
-  if (c.smoothing != nullptr) options.smoothing = ossa::tracker::SmoothingPreset(c.smoothing);
-  options.physics = c.physics != 0;
-  options.near_range = c.near_range != 0;
-  if (c.seated != 0) options.mode = ossa::tracker::TrackingMode::kSeated;
-  if (c.max_users != 0) options.max_users = c.max_users;
-  if (c.threads != 0) options.threads = c.threads;
-  options.turn = TurnFrom(TextOr(c.rotate, "0"));
-  options.mount = MountFrom(TextOr(c.mount, "auto"));
-  return options;
-}
-
-void Copy(const Eigen::Vector3d& from, float* to) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
-}
-
-void Copy(const Eigen::Quaterniond& from, float* to) {
-  to[0] = static_cast<float>(from.w());
-  to[1] = static_cast<float>(from.x());
-  to[2] = static_cast<float>(from.y());
-  to[3] = static_cast<float>(from.z());
-}
-
-ossa_joint JointFrom(const ossa::tracker::JointEstimate& estimate) {
-  ossa_joint joint{};
-  Copy(estimate.position_m, joint.position_m);
-  Copy(estimate.orientation, joint.orientation_wxyz);
-  joint.confidence = static_cast<float>(estimate.confidence);
-  joint.reliability = static_cast<float>(estimate.reliability);
-  joint.state = static_cast<int32_t>(estimate.state);
-  return joint;
-}
-
-ossa_body BodyFrom(const Body& body) {
-  ossa_body c{};
-  c.id = body.id;
-  Copy(body.position_m, c.position_m);
-  c.clipped_edges = body.clipped_edges;
-  if (body.state != ossa::tracker::BodyState::kTracked) return c;
-  c.state = OSSA_FULLY_TRACKED;
-  const auto hierarchical = ossa::tracker::ComputeHierarchicalOrientations(body);
-  const ossa::recon::Posture& refined = body.refined ? *body.refined : body.raw.posture;
-  for (size_t j = 0; j < OSSA_JOINT_COUNT; ++j) {
-    c.joints[j] = JointFrom(body.joints[j]);
-    Copy(hierarchical[j], c.hierarchical_wxyz[j]);
-    Copy(body.raw.posture.position_m[j], c.raw_m[j]);
-    Copy(refined.position_m[j], c.refined_m[j]);
-    Copy(body.reconstructed.position_m[j], c.reconstructed_m[j]);
-  }
-  return c;
-}
-
-ossa_frame FrameFrom(const BodyFrame& bodies) {
-  ossa_frame frame{};
-  frame.body_count = static_cast<int32_t>(bodies.bodies.size());
-  frame.time_s = bodies.time_s;
-  if (bodies.floor) {
-    frame.has_floor = 1;
-    for (int i = 0; i < 4; ++i) frame.floor[i] = static_cast<float>((*bodies.floor)[i]);
-    frame.tilt_down_rad = static_cast<float>(bodies.tilt_down_rad.value_or(0.0));
-  }
-  frame.users = bodies.users.data.data();
-  return frame;
-}
+using ossa::tracker::RequirePlace;
+using ossa::tracker::TextOr;
 
 // Checked before a pixel is read: the camera says how many there are.
 ossa::depth::DepthFrame DepthFrom(const ossa_depth_image& given, int64_t index) {
-  const ossa_depth_image image = ReadStruct(given, "ossa_depth_image");
+  const ossa_depth_image image = ReadStruct(given);
   RequireNotNull(image.depth_mm, "ossa_tracker_track", "depths");
   ossa::depth::DepthFrame frame;
-  frame.camera = {image.width, image.height, image.fx, image.fy, image.cx, image.cy};
-  ossa::depth::CheckCamera(frame.camera, "ossa_depth_image");
+  frame.camera = ossa::tracker::CameraFrom(image);
   frame.time_s = image.time_s;
   frame.index = index;
   frame.borrowed = {image.depth_mm, image.width, image.height, image.width};
   return frame;
+}
+
+/// Hands a frame out: what is asked for afterwards is of this one. None: nobody is in it.
+ossa_status Tell(std::optional<BodyFrame> bodies, ossa_status otherwise, ossa_tracker& tracker,
+                 ossa_frame* frame) {
+  const ossa_status status = bodies ? OSSA_OK : otherwise;
+  tracker.last = bodies ? std::move(*bodies) : BodyFrame{};
+  FillStruct(FrameFrom(tracker.last, tracker.tracker.mount()), frame);
+  return status;
+}
+
+/// A body of the last frame. Throws where there are not so many.
+const Body& BodyAt(const ossa_tracker* tracker, int32_t place, const char* call) {
+  RequireNotNull(tracker, call, "a tracker");
+  RequirePlace(place, tracker->last.bodies.size(), call, "body_count");
+  return tracker->last.bodies[static_cast<size_t>(place)];
+}
+
+/// The skin of the fitted surface, read once. Throws InputError where there is none.
+const ossa::recon::BodyMesh& FindMesh(ossa_tracker& tracker) {
+  if (tracker.mesh) return *tracker.mesh;
+  const bool has_any = tracker.surface != nullptr && tracker.mesh_file != "none";
+  if (!has_any) {
+    throw ossa::InputError("ossa_tracker_skin: expected a surface and its skin, found 'none'");
+  }
+  if (!tracker.surface_file.empty() && tracker.mesh_file.empty()) {
+    throw ossa::InputError("ossa_tracker_skin: expected ossa_options.mesh, the skin of " +
+                           tracker.surface_file + ", found NULL");
+  }
+  tracker.mesh = ossa::tracker::LoadBodyMesh(tracker.surface_file, tracker.mesh_file);
+  return *tracker.mesh;
+}
+
+/// Of who was not fitted, without vertices.
+ossa_skin PoseSkin(const Body& body, const ossa::recon::BodyMesh& mesh,
+                   std::vector<float>& vertices_m) {
+  static_assert(sizeof(ossa::recon::MeshTriangle) == 3 * sizeof(uint32_t));
+  ossa_skin skin{};
+  skin.body_id = body.id;
+  skin.triangle_count = static_cast<int32_t>(mesh.triangles.size());
+  skin.triangles = mesh.triangles.front().data();
+  if (!body.fit) return skin;
+  vertices_m.clear();
+  for (const Eigen::Vector3d& place_m : PoseMesh(mesh, body.fit->pose)) {
+    for (const double x_m : place_m) vertices_m.push_back(static_cast<float>(x_m));
+  }
+  skin.vertex_count = static_cast<int32_t>(mesh.vertices.size());
+  skin.vertices_m = vertices_m.data();
+  return skin;
 }
 
 // A call that changes a tracker and cannot but succeed, once there is one.
@@ -182,12 +94,33 @@ ossa_status Changed(ossa_tracker* tracker, const char* call, const Change& chang
 
 }  // namespace
 
-std::string& ossa::tracker::LastError() {
-  thread_local std::string last;
-  return last;
+namespace ossa::tracker {
+namespace {
+
+// A plain array: it is there until the thread is gone, whatever else is destroyed before.
+constexpr size_t kLongestError = 8192;  // bytes; by hand: two of the longest paths
+thread_local char last_error[kLongestError] = "";
+
+}  // namespace
+
+const char* LastError() { return last_error; }
+
+void SetLastError(const char* text) noexcept {
+  std::snprintf(last_error, kLongestError, "%s", text);
 }
 
-const char* ossa_last_error(void) { return ossa::tracker::LastError().c_str(); }
+}  // namespace ossa::tracker
+
+ossa_tracker::ossa_tracker(const ossa::tracker::TrackerOptions& options, std::string surface,
+                           std::string mesh)
+    : tracker(options),
+      is_seated(options.mode == ossa::tracker::TrackingMode::kSeated),
+      surface_file(std::move(surface)),
+      mesh_file(std::move(mesh)) {
+  if (options.models) this->surface = options.models->surface;
+}
+
+const char* ossa_last_error(void) { return ossa::tracker::LastError(); }
 
 const char* ossa_version(void) { return ossa::tracker::Version(); }
 
@@ -201,10 +134,21 @@ int32_t ossa_joint_parent(int32_t joint) {
   return is_one ? ossa::recon::kJointParent[static_cast<size_t>(joint)] : -1;
 }
 
+const char* ossa_part_name(int32_t label) {
+  const bool is_one = label >= 0 && label < ossa::recon::kLabelCount;
+  return is_one ? ossa::recon::kPartNames[static_cast<size_t>(label)].data() : nullptr;
+}
+
 ossa_tracker* ossa_tracker_create(const ossa_options* options) {
   ossa_tracker* tracker = nullptr;
   Guarded([&] {
-    tracker = new ossa_tracker{ossa::tracker::Tracker(OptionsFrom(options)), {}};
+    ossa_options given{};
+    if (options != nullptr) given = ReadStruct(*options);
+    auto made = std::make_unique<ossa_tracker>(ossa::tracker::OptionsFrom(given),
+                                               TextOr(given.surface, ""), TextOr(given.mesh, ""));
+    const bool is_named = !made->mesh_file.empty() && made->mesh_file != "none";
+    if (is_named) FindMesh(*made);  // says now what is wrong with the file
+    tracker = made.release();
     return OSSA_OK;
   });
   return tracker;
@@ -218,24 +162,70 @@ ossa_status ossa_tracker_track(ossa_tracker* tracker, const ossa_depth_image* im
     RequireNotNull(tracker, "ossa_tracker_track", "a tracker");
     RequireNotNull(image, "ossa_tracker_track", "an image");
     RequireNotNull(frame, "ossa_tracker_track", "a frame");
-    ossa::tracker::CheckSize(*frame, "ossa_frame");  // before anything moves on in time
-    tracker->last = tracker->tracker.Track(DepthFrom(*image, tracker->last.index + 1));
-    FillStruct(FrameFrom(tracker->last), "ossa_frame", frame);
+    ossa::tracker::CheckSize(*frame);  // before anything moves on in time
+    auto bodies = tracker->tracker.TrackWithLag(DepthFrom(*image, tracker->images));
+    ++tracker->images;
+    return Tell(std::move(bodies), OSSA_HELD, *tracker, frame);
+  });
+}
+
+ossa_status ossa_tracker_drain_lag(ossa_tracker* tracker, ossa_frame* frame) {
+  return Guarded([&] {
+    RequireNotNull(tracker, "ossa_tracker_drain_lag", "a tracker");
+    RequireNotNull(frame, "ossa_tracker_drain_lag", "a frame");
+    ossa::tracker::CheckSize(*frame);
+    return Tell(tracker->tracker.DrainLag(), OSSA_END, *tracker, frame);
+  });
+}
+
+ossa_status ossa_tracker_find_upright(ossa_tracker* tracker, ossa_source* source) {
+  return Guarded([&] {
+    RequireNotNull(tracker, "ossa_tracker_find_upright", "a tracker");
+    RequireNotNull(source, "ossa_tracker_find_upright", "a source");
+    tracker->tracker.FindUpright(ossa::tracker::FramesOf(*source));
     return OSSA_OK;
   });
 }
 
 ossa_status ossa_tracker_body(const ossa_tracker* tracker, int32_t place, ossa_body* body) {
   return Guarded([&] {
-    RequireNotNull(tracker, "ossa_tracker_body", "a tracker");
+    const Body& of_frame = BodyAt(tracker, place, "ossa_tracker_body");
     RequireNotNull(body, "ossa_tracker_body", "a body");
-    const auto count = static_cast<int32_t>(tracker->last.bodies.size());
-    if (place < 0 || place >= count) {
-      throw std::invalid_argument(
-          "ossa_tracker_body: expected a place below the frame's body_count, " +
-          std::to_string(count) + ", found " + std::to_string(place));
+    FillStruct(BodyFrom(of_frame, tracker->surface.get()), body);
+    return OSSA_OK;
+  });
+}
+
+ossa_status ossa_tracker_skin(ossa_tracker* tracker, int32_t place, ossa_skin* skin) {
+  return Guarded([&] {
+    const Body& body = BodyAt(tracker, place, "ossa_tracker_skin");
+    RequireNotNull(skin, "ossa_tracker_skin", "a skin");
+    FillStruct(PoseSkin(body, FindMesh(*tracker), tracker->skin_m), skin);
+    return OSSA_OK;
+  });
+}
+
+ossa_status ossa_tracker_save_person(const ossa_tracker* tracker, int32_t place, const char* path) {
+  return Guarded([&] {
+    const Body& body = BodyAt(tracker, place, "ossa_tracker_save_person");
+    RequireNotNull(path, "ossa_tracker_save_person", "a path");
+    if (!body.shape || tracker->surface == nullptr) {
+      throw ossa::InputError(std::string(path) +
+                             ": expected a person to whom a body was fitted, found none; not "
+                             "written");
     }
-    FillStruct(BodyFrom(tracker->last.bodies[static_cast<size_t>(place)]), "ossa_body", body);
+    body.shape->Save(path, *tracker->surface);
+    return OSSA_OK;
+  });
+}
+
+ossa_status ossa_tracker_object(const ossa_tracker* tracker, int32_t place, ossa_object* object) {
+  return Guarded([&] {
+    RequireNotNull(tracker, "ossa_tracker_object", "a tracker");
+    RequireNotNull(object, "ossa_tracker_object", "an object");
+    RequirePlace(place, tracker->last.objects.size(), "ossa_tracker_object", "object_count");
+    FillStruct(ossa::tracker::ObjectFrom(tracker->last.objects[static_cast<size_t>(place)]),
+               object);
     return OSSA_OK;
   });
 }
@@ -250,6 +240,7 @@ ossa_status ossa_tracker_reset(ossa_tracker* tracker) {
     RequireNotNull(tracker, "ossa_tracker_reset", "a tracker");
     tracker->tracker.Reset();
     tracker->last = {};
+    tracker->images = 0;
     return OSSA_OK;
   });
 }
@@ -268,6 +259,7 @@ ossa_status ossa_tracker_choose_users(ossa_tracker* tracker, const int32_t* ids,
 ossa_status ossa_tracker_set_seated(ossa_tracker* tracker, int32_t seated) {
   using ossa::tracker::TrackingMode;
   return Changed(tracker, "ossa_tracker_set_seated", [&](ossa::tracker::Tracker& changed) {
+    tracker->is_seated = seated != 0;
     changed.SetMode(seated != 0 ? TrackingMode::kSeated : TrackingMode::kStanding);
   });
 }
@@ -284,7 +276,7 @@ ossa_status ossa_tracker_set_smooth_parameters(ossa_tracker* tracker,
   const char* call = "ossa_tracker_set_smooth_parameters";
   return Changed(tracker, call, [&](ossa::tracker::Tracker& changed) {
     RequireNotNull(parameters, call, "parameters");
-    const auto given = ReadStruct(*parameters, "ossa_smooth_parameters");
+    const auto given = ReadStruct(*parameters);
     ossa::tracker::SmoothingOptions options;
     options.kind = ossa::tracker::SmoothingKind::kHolt;
     options.holt.smoothing = static_cast<double>(given.smoothing);

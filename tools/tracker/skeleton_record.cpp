@@ -1,5 +1,11 @@
 #include "tools/tracker/skeleton_record.h"
 
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "depth/base/error.h"
+
 namespace ossa::tracker {
 namespace {
 
@@ -40,6 +46,23 @@ recon::BodyRecord ToRecord(const Body& body, PostureKind kind) {
 }
 
 }  // namespace
+
+PostureKind ParsePostureKind(std::string_view name) {
+  constexpr std::array<std::string_view, 5> kNames = {"final", "reconstructed", "fitted", "refined",
+                                                      "raw"};
+  const auto known = std::find(kNames.begin(), kNames.end(), name);
+  if (known != kNames.end()) return static_cast<PostureKind>(known - kNames.begin());
+  throw InputError("posture: expected final, reconstructed, fitted, refined or raw, found '" +
+                   std::string(name) + "'");
+}
+
+void KeepSeatedJoints(recon::SkeletonFrame& record) {
+  for (recon::BodyRecord& body : record.bodies) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      if (!IsSeatedJoint(static_cast<recon::Joint>(j))) body.joints[j].reset();
+    }
+  }
+}
 
 recon::SkeletonFrame ToRecord(const BodyFrame& frame, PostureKind kind) {
   recon::SkeletonFrame record;

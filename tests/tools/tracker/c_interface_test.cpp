@@ -9,67 +9,17 @@
 #include "tests/support/depth_examples.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/tools/tracker/tracked_scenes.h"
+#include "tests/tools/tracker/walk_in_c.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tracker {
 namespace {
 
+using test::ImageOf;
+using test::PlainOptionsInC;
+using test::Says;
+using test::WalkInC;
 using tests::CapsuleRender;
-
-ossa_depth_image ImageOf(const depth::DepthFrame& frame) {
-  const depth::Camera& c = frame.camera;
-  return {sizeof(ossa_depth_image), c.width,     c.height, c.fx, c.fy, c.cx, c.cy,
-          frame.depth_mm.data(),    frame.time_s};
-}
-
-ossa_options PlainOptionsInC() {
-  ossa_options options{};
-  options.struct_size = sizeof options;
-  options.method = "none";
-  options.smoothing = "none";
-  return options;
-}
-
-bool Says(const char* what) {
-  return std::string(ossa_last_error()).find(what) != std::string::npos;
-}
-
-/// A walk to the side, a frame a step, seen through the C interface.
-class WalkInC {
- public:
-  explicit WalkInC(ossa_options options = PlainOptionsInC())
-      : tracker(ossa_tracker_create(&options)) {}
-  ~WalkInC() { ossa_tracker_destroy(tracker); }
-  WalkInC(const WalkInC&) = delete;
-  WalkInC& operator=(const WalkInC&) = delete;
-
-  ossa_body Next() {
-    const CapsuleRender render = Rendered({PersonAt(0.03 * frames_, 2.5)}, frames_);
-    const ossa_depth_image image = ImageOf(render.frame);
-    EXPECT_EQ(ossa_tracker_track(tracker, &image, &frame), OSSA_OK) << ossa_last_error();
-    ++frames_;
-    EXPECT_EQ(frame.body_count, 1);
-    ossa_body body{};
-    body.struct_size = sizeof body;
-    EXPECT_EQ(ossa_tracker_body(tracker, 0, &body), OSSA_OK) << ossa_last_error();
-    return body;
-  }
-  int32_t SpineState() { return Next().joints[OSSA_SPINE].state; }
-  /// How far smoothing moved the head, metres.
-  float SmoothedBy_m() {
-    const ossa_body body = Next();
-    const float* final_m = body.joints[OSSA_HEAD].position_m;
-    const float* before_m = body.reconstructed_m[OSSA_HEAD];
-    return std::hypot(final_m[0] - before_m[0], final_m[1] - before_m[1], final_m[2] - before_m[2]);
-  }
-
-  ossa_tracker* tracker = nullptr;
-  ossa_frame frame{sizeof(ossa_frame), 0, 0.0, 0, {}, 0.0F, nullptr};
-
- private:
-  int frames_ = 0;
-};
 
 TEST(CInterface, ACHeaderServesOtherLanguages) {
   OSSA_NEEDS_MODEL();
@@ -216,16 +166,43 @@ TEST(CInterface, AStructSizeThatNoVersionHadIsRefused) {
   }
 }
 
-// Its struct ends before the members that came since, which are what they are without it.
-TEST(CInterface, AProgramOfAnEarlierVersionRuns) {
+// Structs as they were before members came: what those say now is as without them, and nothing is
+// written behind what the program knows.
+class EarlierOptions : public testing::TestWithParam<size_t> {};
+
+TEST_P(EarlierOptions, AreTakenAsTheyAre) {
   OSSA_NEEDS_MODEL();
   ossa_options options = PlainOptionsInC();
-  options.struct_size = offsetof(ossa_options, rotate);
-  options.rotate = options.mount = "behind what it knows";
+  options.struct_size = static_cast<uint32_t>(GetParam());
+  std::memset(reinterpret_cast<char*>(&options) + GetParam(), 0x77, sizeof options - GetParam());
   ossa_tracker* tracker = ossa_tracker_create(&options);
   EXPECT_NE(tracker, nullptr) << ossa_last_error();
   EXPECT_EQ(ossa_tracker_rotation(tracker), 0);
   ossa_tracker_destroy(tracker);
+}
+
+// By sizeof in programs that were compiled then, x86-64.
+INSTANTIATE_TEST_SUITE_P(Sizes, EarlierOptions, testing::Values(80, 96));
+
+TEST(CInterface, AProgramOfAnEarlierVersionRuns) {
+  OSSA_NEEDS_MODEL();
+  constexpr size_t kFrame = 48, kBody = 1868;  // bytes, likewise
+  WalkInC walk;
+  walk.Next();
+  const CapsuleRender render = Rendered({PersonAt(0.03, 2.5)}, 1);
+  const ossa_depth_image image = ImageOf(render.frame);
+  ossa_frame frame;
+  std::memset(&frame, 0x77, sizeof frame);
+  frame.struct_size = kFrame;
+  ASSERT_EQ(ossa_tracker_track(walk.tracker, &image, &frame), OSSA_OK) << ossa_last_error();
+  EXPECT_EQ(frame.body_count, 1);
+  EXPECT_EQ(frame.index, 0x7777777777777777);
+  ossa_body body;
+  std::memset(&body, 0x77, sizeof body);
+  body.struct_size = kBody;
+  ASSERT_EQ(ossa_tracker_body(walk.tracker, 0, &body), OSSA_OK) << ossa_last_error();
+  EXPECT_GT(body.joints[OSSA_HEAD].position_m[2], 1.0F);
+  EXPECT_EQ(body.has_bones, 0x77777777);
 }
 
 // A camera that lies on its side: joints stay in its own space.
