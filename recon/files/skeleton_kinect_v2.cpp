@@ -72,7 +72,9 @@ SkeletonSequence ReadLabanotation(SkeletonInput& input) {
   return sequence;
 }
 
-// --- KERAAL: 25 times x y z and a quaternion x y z w, separated by spaces; no time, no state.
+// --- KERAAL: 25 times x y z and a quaternion, separated by spaces; no time, no state. Its own
+// description has quaternions as x y z w. They are w x y z: only so the y axis of each lies along
+// its bone, as the SDK defines them and as it does in the recordings.
 
 constexpr size_t kKeraalColumns = 7 * kV2Joints;
 
@@ -89,8 +91,8 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
       const Eigen::Vector3d position(&numbers[7 * j]);
       if (!joint || position.isZero(0.0)) continue;
       PutJoint(body, *joint, position);
-      const Eigen::Quaterniond q(numbers[7 * j + 6], numbers[7 * j + 3], numbers[7 * j + 4],
-                                 numbers[7 * j + 5]);
+      const Eigen::Quaterniond q(numbers[7 * j + 3], numbers[7 * j + 4], numbers[7 * j + 5],
+                                 numbers[7 * j + 6]);
       // End joints have no orientation in SDK 2: all zero. So have the seated recordings.
       constexpr double kUnit = 1e-2;  // share of the length
       if (std::abs(q.norm() - 1) < kUnit) {

@@ -63,7 +63,7 @@ inline std::string LabanText(size_t frames) {
 
 inline std::string KeraalText(size_t columns) {
   std::string text;
-  for (size_t i = 0; i < columns / 7; ++i) text += Triple(i, 1, " ") + " 0 0 0.6 0.8 ";
+  for (size_t i = 0; i < columns / 7; ++i) text += Triple(i, 1, " ") + " 0.8 0 0 0.6 ";
   return text + "\n";
 }
 
