@@ -156,6 +156,46 @@ def test_without_a_fit_there_is_no_mesh(images, models):
     assert body.mesh is None and body.fit is None
 
 
+SHIPPED = pathlib.Path(__file__).parents[2] / "tools/tracker/shipped"
+OWN = {"surface": SHIPPED / "body.ossasurface", "mesh": SHIPPED / "body.ossamesh"}
+
+
+def test_a_skin_of_ones_own_is_worn_by_bodies_and_files(images, tmp_path):
+    tracker = ossa.Tracker(**OWN)
+    body = [tracker.track(*image) for image in images[:3]][-1].bodies[0]
+    assert len(body.mesh.vertices) > 1000
+    sequence = ossa.Sequence([0.0], body.joints[None], ids=[body.id])
+    size = {}
+    for name, how in {
+        "shipped": {}, "own": OWN, "none": {"mesh": "none"}, "like": {**OWN, "shapes": {body.id: body.fit.shape}},
+    }.items():  # fmt: skip
+        path = tmp_path / f"{name}.glb"
+        ossa.write_skeletons(sequence, path, **how)
+        size[name] = path.read_bytes()
+    assert size["own"] == size["shipped"] and len(size["none"]) < len(size["own"]) / 2
+    assert size["like"] != size["own"], "in the shape that was fitted"
+
+
+@pytest.mark.parametrize("name, how, says", [
+    ("x.glb", {"surface": "mine.ossasurface"}, "surface: expected its skin"),
+    ("x.csv", {"mesh": "none"}, "expected a .glb"),
+    ("x.csv", {"shapes": {}}, "shapes: expected a .glb"),
+    ("x.glb", {"shapes": {1: [0.0] * 9}}, "float64 \\[10\\]"),
+    ("x.glb", {"shapes": {1: [np.nan] * 10}}, "finite"),
+    ("x.glb", {"shapes": [1]}, "dict"),
+])  # fmt: skip
+def test_a_skin_that_cannot_be_worn_is_refused(name, how, says, frames, tmp_path):
+    sequence = ossa.Sequence.from_frames(frames[:2])
+    with pytest.raises(ossa.InputError, match=says):
+        ossa.write_skeletons(sequence, tmp_path / name, **how)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_surface_of_ones_own_wants_its_skin():
+    with pytest.raises(ossa.InputError, match="surface: expected its skin with it"):
+        ossa.Tracker(surface=OWN["surface"])
+
+
 def test_several_people_are_there_when_they_are(frames, tmp_path, pygltflib):
     first = ossa.Sequence.from_frames(frames[:9])
     rows = len(first.times)

@@ -146,7 +146,7 @@ void WriteOptions::Check(const std::string& out) const {
   if (names == "sdk" && is_glb) {
     throw UsageError("--bvh-names sdk: expected vrm, cmu or mixamo with --out FILE.glb");
   }
-  if (!mesh.empty() && !is_glb) {
+  if (!mesh.empty() && !is_glb && !has_page) {
     throw UsageError("--mesh " + mesh + ": expected --out FILE.glb with it");
   }
   if (!surface.empty() && is_glb && mesh.empty()) {
@@ -157,8 +157,8 @@ void WriteOptions::Check(const std::string& out) const {
 
 recon::SkeletonWriteOptions WriteOptions::For(const std::string& out) const {
   const bool is_glb = fs::path(out).extension() == ".glb";
-  // --surface is also what is fitted, of whatever is written.
-  return tracker::LoadWriteOptions(out, {names, is_glb ? surface : "", mesh});
+  // Both say also what is fitted and what a page shows, whatever is written.
+  return tracker::LoadWriteOptions(out, {names, is_glb ? surface : "", is_glb ? mesh : ""});
 }
 
 void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence,

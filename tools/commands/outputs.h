@@ -54,7 +54,8 @@ InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
 /// The options --bvh-names and --mesh: how skeletons are written.
 struct WriteOptions {
   std::string names, mesh;
-  std::string surface;  // whose skin --mesh is; "": the shipped one
+  std::string surface;    // whose skin --mesh is; "": the shipped one
+  bool has_page = false;  // shown in browsers, too, which wear the same skin
   void AddTo(CLI::App& app);
   /// --surface, of commands that have no fit to pose one.
   void AddSurfaceTo(CLI::App& app);

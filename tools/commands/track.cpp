@@ -258,7 +258,7 @@ std::unique_ptr<viewer::Viewer> OpenViewer(const TrackOptions& options) {
   viewer::ViewerOptions page = PageOptions(options.page);
   page.name = options.source.name;
   page.forest = options.tracker.models->forest;
-  page.body = LoadSkin(options.files);
+  page.body = LoadSkin(options.files.surface, options.write.mesh);
   auto viewer = std::make_unique<viewer::Viewer>(page);
   SayWhere(*viewer);
   return viewer;

@@ -221,7 +221,8 @@ void AddOtherOutputs(CLI::App& app, TrackOptions& options) {
                  "live, to vmc://HOST:PORT[?bones=seen] (avatars), vrchat://HOST:PORT[?scale=X] or "
                  "udp://HOST:PORT (JSONL); repeat for more")
       ->allow_extra_args(false);
-  app.add_flag("--view", options.view, "show it in browsers while it runs");
+  app.add_flag("--view", options.view,
+               "show it in browsers while it runs, fitted bodies in the skin of --mesh");
   AddPageOptions(app, options.page);
   app.add_flag("--quiet", options.quiet, "no progress");
 }
@@ -320,6 +321,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
     CheckRefinementIsRead(options);
   }
   if (options.files.surface != "none") options.write.surface = options.files.surface;
+  options.write.has_page = options.view;
   CheckFiles(options);
   if (options.fit == "on" || options.posture == "fitted") CheckFit(options);
   options.tracker = MakeTrackerOptions(options);

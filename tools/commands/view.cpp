@@ -44,6 +44,7 @@ struct ViewOptions {
   MechanicsOptions mechanics;
   viewer::Settings settings;
   std::vector<std::string> over;
+  std::string mesh;
   std::string record_to;
   bool once = false;
 };
@@ -77,6 +78,7 @@ viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   // What a camera's URI asks of its driver is no part of its name.
   if (IsDevice(options.source.name)) with.name = with.name.substr(0, with.name.find('?'));
   if (with.name.empty()) with.name = options.source.name;
+  with.body = LoadSkin(options.files.surface, options.mesh);
   for (const std::string& path : options.over) {
     recon::SkeletonSequence sequence = Read(path);
     with.overlays.push_back({std::filesystem::path(path).filename().string(), sequence});
@@ -138,7 +140,6 @@ class PageTracker {
     FindUpright(tracker_, *source_, options_.source, false);
     viewer::ViewerOptions with = MakeViewerOptions(options);
     with.keeps = !source_->is_live();
-    with.body = LoadSkin(options.files);
     with.expected_frames = source_->frame_count();
     with.settings = settings_;
     with.methods = MethodsToChoose(options.files);
@@ -251,6 +252,12 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
   app.add_option("--smoothing", options.settings.smoothing,
                  "preset of the filter (default: what goes with the method)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
+  app.add_option("--surface", options.files.surface,
+                 ".ossasurface of 'ossa surface', the body that is fitted, or none: no fit, which "
+                 "is faster (default: the shipped one)");
+  app.add_option("--mesh", options.mesh,
+                 ".ossamesh of 'ossa surface', the skin of that body, on the page and in a .glb "
+                 "that it exports, or none (default: the shipped one)");
   AddMechanicsOptions(app, options.mechanics);
   app.add_flag("--seated", options.settings.seated, "look for the ten upper joints only");
   app.add_flag("--near", options.settings.near_range,

@@ -37,8 +37,14 @@ viewer::ViewerOptions PageOptions(const PageArguments& arguments) {
   return options;
 }
 
-std::shared_ptr<const recon::BodyMesh> LoadSkin(const tracker::ModelFiles& files) {
-  return files.surface.empty() ? tracker::LoadBodyMesh() : nullptr;
+std::shared_ptr<const recon::BodyMesh> LoadSkin(const std::string& surface,
+                                                const std::string& mesh) {
+  if (surface == "none" || mesh == "none") return nullptr;
+  if (surface.empty() || !mesh.empty()) return tracker::LoadBodyMesh(surface, mesh);
+  Say(fmt::format(
+      "ossa: --surface {}: the page shows no skin of it: --mesh FILE.ossamesh names one\n",
+      surface));
+  return nullptr;
 }
 
 void SayWhere(const viewer::Viewer& viewer) {

@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 
-#include "tools/tracker/model_set.h"
 #include "tools/viewer/viewer.h"
 
 namespace CLI {
@@ -24,9 +23,11 @@ void AddPageOptions(CLI::App& app, PageArguments& arguments);
 /// What they mean for a viewer.
 viewer::ViewerOptions PageOptions(const PageArguments& arguments);
 
-/// The skin of bodies that are fitted with these models: of the shipped surface; of others, whose
-/// mesh nobody named, and without one null. Throws InputError.
-std::shared_ptr<const recon::BodyMesh> LoadSkin(const tracker::ModelFiles& files);
+/// The skin of bodies that a page shows and exports, as --surface and --mesh name it; null where
+/// one of them is "none", and of a surface of one's own without its mesh, which is said. Throws
+/// InputError.
+std::shared_ptr<const recon::BodyMesh> LoadSkin(const std::string& surface,
+                                                const std::string& mesh);
 
 /// Where browsers find the page, on stderr.
 void SayWhere(const viewer::Viewer& viewer);

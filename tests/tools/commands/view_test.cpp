@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/depth_examples.h"
+#include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/viewer/viewer.h"
@@ -122,6 +125,52 @@ TEST(ViewCommand, AMethodThatLearnsNeedsWhatWasLearned) {
   const CommandResult result = RunOssa({"view", folder.path().string(), "--method", "full-gp"});
   EXPECT_EQ(result.exit_status, 2);
   EXPECT_NE(result.err.find("--learned"), std::string::npos) << result.err;
+}
+
+/// Bytes of what the page of this port answers to /mesh, the triangles of a skin.
+int MeshBytes(const std::string& port) {
+  const char* get =
+      R"(exec 3<>/dev/tcp/127.0.0.1/$1; printf 'GET /mesh HTTP/1.0\r\nHost: 127.0.0.1\r\n\r\n' >&3)"
+      R"(; cat <&3 | sed '1,/^\r$/d' | wc -c)";
+  const CommandResult got = test::RunProgram({"/bin/bash", "-c", get, "shell", port});
+  return std::stoi("0" + got.out);
+}
+
+/// The page of `ossa view` with these arguments, and what was said.
+std::pair<int, std::string> SkinOf(std::vector<std::string> arguments) {
+  viewer::ViewerOptions any;
+  any.port = 0;
+  const std::string port = std::to_string(viewer::Viewer(any).port());
+  arguments.insert(arguments.begin(), "view");
+  arguments.insert(arguments.end(), {"--port", port});
+  auto command = test::StartOssa(arguments);
+  EXPECT_TRUE(command.WaitForError("watch at", test::kCommandTimeout));
+  const int bytes = MeshBytes(port);
+  command.Signal(SIGINT);
+  return {bytes, command.Wait(test::kCommandTimeout).err};
+}
+
+// Of a body of one's own, and of skeletons: a .glb that the page exports is dressed, too.
+TEST(ViewCommand, BodiesWearTheSkinThatIsNamed) {
+  const TemporaryFolder folder;
+  WriteSkeletons(folder / "x.jsonl");
+  const std::string skeletons = folder / "x.jsonl";
+  constexpr int kTriangles = 1000 * 3 * 4;  // bytes of a body's: more than a thousand
+  EXPECT_GT(SkinOf({skeletons}).first, kTriangles);
+  EXPECT_EQ(SkinOf({skeletons, "--mesh", "none"}).first, 0);
+  const auto shipped = test::SourceFolder() / "tools/tracker/shipped";
+  std::filesystem::create_directory(folder / "images");
+  test::WriteExampleFolder(folder / "images", 1);
+  const std::vector<std::string> own = {folder / "images", "--surface",
+                                        shipped / "body.ossasurface"};
+  const auto [bare, said] = SkinOf(own);
+  EXPECT_EQ(bare, 0);
+  EXPECT_NE(said.find("the page shows no skin of it: --mesh FILE.ossamesh names one"),
+            std::string::npos)
+      << said;
+  std::vector<std::string> dressed = own;
+  dressed.insert(dressed.end(), {"--mesh", shipped / "body.ossamesh"});
+  EXPECT_GT(SkinOf(dressed).first, kTriangles);
 }
 
 TEST(ViewCommand, AStillIsASource) {

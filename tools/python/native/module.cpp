@@ -118,6 +118,8 @@ tracker::ModelFiles ReadModelFiles(const py::dict& given) {
   static constexpr std::pair<const char*, std::string Files::*> kFiles[] = {
       {"forest", &Files::forest},
       {"refinement", &Files::refinement},
+      {"pose_network", &Files::pose_network},
+      {"surface", &Files::surface},
       {"learned", &Files::learned},
       {"prior", &Files::prior},
       {"database", &Files::database}};

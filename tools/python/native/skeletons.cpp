@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -203,20 +204,20 @@ py::dict ReadOne(const std::string& path, const py::dict& given) {
   return ToDict(Interruptible([&] { return recon::ReadSkeletons(path, reading); }));
 }
 
-recon::BvhNames NamesFrom(const std::string& names) {
-  if (names == "cmu") return recon::BvhNames::kCmu;
-  if (names == "mixamo") return recon::BvhNames::kMixamo;
-  return names == "vrm" ? recon::BvhNames::kVrm : recon::BvhNames::kSdk;
-}
-
-void Write(const py::dict& given, const std::string& path, const std::string& names) {
+// `shapes`: float64 [recon::kShapeCount] by body id.
+void Write(const py::dict& given, const std::string& path, const py::dict& how,
+           const std::map<int, std::vector<double>>& shapes) {
   recon::CheckSkeletonExtension(path);
   const recon::SkeletonSequence sequence = SequenceFrom(given);
+  const auto text = [&](const char* key) { return how[key].cast<std::string>(); };
+  const tracker::WriteChoice choice = {text("names"), text("surface"), text("mesh")};
   const py::gil_scoped_release free;
-  recon::SkeletonWriteOptions options;
-  options.names = NamesFrom(names);
-  if (path.ends_with(".glb")) options.body = tracker::LoadBodyMesh();
-  recon::WriteSkeletons(path, sequence, options);
+  recon::SkeletonWriter writer(path, tracker::LoadWriteOptions(path, choice));
+  for (const auto& [id, shape] : shapes) {
+    writer.SetShape(id, Eigen::Map<const recon::ShapeVector>(shape.data()));
+  }
+  for (const recon::SkeletonFrame& frame : sequence.frames) writer.Write(frame);
+  writer.Finish();
 }
 
 // Of a correction the shipped one where the recording is of a sensor whose errors are known.
@@ -285,7 +286,8 @@ py::dict Reconstruct(const py::dict& rows, const py::dict& given) {
 void AddSkeletons(py::module_& module) {
   module.def("read_skeletons", &ReadOne, py::arg("path"), py::arg("options"));
   module.def("read_clips", &ReadClips, py::arg("path"), py::arg("options"));
-  module.def("write_skeletons", &Write, py::arg("sequence"), py::arg("path"), py::arg("names"));
+  module.def("write_skeletons", &Write, py::arg("sequence"), py::arg("path"), py::arg("how"),
+             py::arg("shapes"));
   module.def("reconstruct", &Reconstruct, py::arg("sequence"), py::arg("options"));
 }
 

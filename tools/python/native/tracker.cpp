@@ -103,12 +103,16 @@ std::map<int, recon::PersonShape> LoadPeople(const std::vector<std::string>& pat
 struct Models {
   tracker::ModelSet set;
   std::string method;
+  std::shared_ptr<const recon::BodyMesh> mesh;  // of `set.surface`; null without one
 };
 
 Models LoadModels(const py::dict& files, const std::string& method) {
   const tracker::ModelFiles named = ReadModelFiles(files);
+  const auto mesh = files["mesh"].cast<std::string>();
   const py::gil_scoped_release free;
-  return {tracker::ModelSet::Load(named, method), method};
+  Models models{tracker::ModelSet::Load(named, method), method, nullptr};
+  if (models.set.surface) models.mesh = tracker::LoadBodyMesh(named.surface, mesh);
+  return models;
 }
 
 // float64 [n, 5]: x y z, confidence, seen.
@@ -295,7 +299,7 @@ class Tracker {
     options_ = options;
     const py::gil_scoped_release free;
     tracker_.emplace(options);
-    if (options.fit) mesh_ = tracker::LoadBodyMesh();
+    if (options.fit) mesh_ = models.mesh;
   }
 
   py::dict Track(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn) {

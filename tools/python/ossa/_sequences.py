@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -353,7 +353,15 @@ def read_recordings(
     return {name: _from_native(made) for name, made in clips}
 
 
-def write_skeletons(sequence: Sequence, path: PathLike, names: Optional[str] = None) -> None:
+def write_skeletons(
+    sequence: Sequence,
+    path: PathLike,
+    names: Optional[str] = None,
+    *,
+    surface: Optional[PathLike] = None,
+    mesh: Optional[PathLike] = None,
+    shapes: Optional[Mapping[int, npt.ArrayLike]] = None,
+) -> None:
     """Writes skeletons in the format that the extension names: .jsonl, .csv, .trc, .bvh or .glb.
 
     TRC and BVH hold one person a file: the first goes to `path`, each other to `path` with _ID
@@ -369,6 +377,12 @@ def write_skeletons(sequence: Sequence, path: PathLike, names: Optional[str] = N
     names : "sdk", "cmu", "mixamo" or "vrm", optional
         Whose names the bones of a .bvh or .glb have. Left out: the SDK's joints of a .bvh, VRM's
         bones of a .glb.
+    surface, mesh : path, optional
+        Of a .glb: the skin that people wear, .ossasurface and .ossamesh of `ossa surface`; mesh
+        "none": bones alone. Left out: the shipped ones.
+    shapes : dict of int to float64 [10], optional
+        Of a .glb: what people are like, Fit.shape by Body.id, of the same surface. Left out: all
+        are like the mean body, stretched to their bones.
     """
     to = _check.path("path", path)
     if names is not None:
@@ -376,7 +390,28 @@ def write_skeletons(sequence: Sequence, path: PathLike, names: Optional[str] = N
         if not to.endswith((".bvh", ".glb")) or (names == "sdk" and to.endswith(".glb")):
             expected = "a .bvh, or a .glb and names other than sdk"
             raise _check.refuse(f"names {names!r}", expected, to)
-    _native.write_skeletons(_to_use(sequence), to, names or "")
+    how = {
+        "names": names or "",
+        "surface": _check.optional_path("surface", surface),
+        "mesh": _check.optional_path("mesh", mesh),
+    }
+    if shapes is not None and not to.endswith(".glb"):
+        raise _check.refuse("shapes", "a .glb", to)
+    _native.write_skeletons(_to_use(sequence), to, how, _shapes_option(shapes))
+
+
+def _shapes_option(shapes: Optional[Mapping[int, npt.ArrayLike]]) -> dict[int, list[float]]:
+    if shapes is None:
+        return {}
+    if not isinstance(shapes, Mapping):
+        raise _check.refuse("shapes", "a dict of float64 [10] by body id", shapes)
+    made = {}
+    for body, values in shapes.items():
+        shape = _check.array("shapes", values, (10,), float)
+        if not np.isfinite(shape).all():
+            raise _check.refuse("shapes", "finite numbers", shape)
+        made[_check.whole("shapes: id", body, 0, 2**31 - 1)] = shape.tolist()
+    return made
 
 
 def _lag_option(lag: Any) -> Optional[int]:

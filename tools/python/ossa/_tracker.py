@@ -120,6 +120,14 @@ class Models:
         .ossaprior of `ossa prior`, for best. Left out: the shipped one.
     database : path or "none", optional
         .ossadb of `ossa database`. Left out: the shipped one, for methods that need one.
+    pose_network : path or "none", optional
+        .ossanet of tools/train_pose_network. Left out: the shipped one beside the shipped
+        refinement.
+    surface : path or "none", optional
+        .ossasurface of `ossa surface`, the body that is fitted. Left out: the shipped one. "none":
+        no fit.
+    mesh : path, optional
+        .ossamesh of `ossa surface`, its skin: needed with a surface of your own.
     """
 
     def __init__(
@@ -130,6 +138,9 @@ class Models:
         learned: Optional[PathLike] = None,
         prior: Optional[PathLike] = None,
         database: Optional[PathLike] = None,
+        pose_network: Optional[PathLike] = None,
+        surface: Optional[PathLike] = None,
+        mesh: Optional[PathLike] = None,
     ) -> None:
         _check.one_of("method", method, METHODS)
         files = {
@@ -138,7 +149,12 @@ class Models:
             "learned": _check.optional_path("learned", learned),
             "prior": _check.optional_path("prior", prior),
             "database": _check.optional_path("database", database),
+            "pose_network": _check.optional_path("pose_network", pose_network),
+            "surface": _check.optional_path("surface", surface),
+            "mesh": _check.optional_path("mesh", mesh),
         }
+        if files["surface"] not in ("", "none") and not files["mesh"]:
+            raise _check.InputError(f"surface: expected its skin with it, mesh, found {files['surface']} alone")
         _method_options.check_files(method, files)
         self._native = _native.Models(files, method)
 
@@ -196,9 +212,9 @@ class Tracker:
         Fill Frame.parts, an eighth of a frame's time; Frame.probabilities, 128 bytes a pixel;
         Body.proposals.
     fit : bool
-        Fit the shipped body's surface to the depth image where there are refined joints (Body.fit,
+        Fit the body's surface to the depth image where there are refined joints (Body.fit,
         Body.mesh), as `ossa track` does; the method starts from what it and they say.
-    refinement, learned, prior, database : path or "none", optional
+    refinement, learned, prior, database, pose_network, surface, mesh : path or "none", optional
         Other models' files, as of ossa.Models.
     models : ossa.Models, optional
         Models in memory that trackers share, in place of files.
@@ -256,6 +272,9 @@ class Tracker:
         learned: Optional[PathLike] = None,
         prior: Optional[PathLike] = None,
         database: Optional[PathLike] = None,
+        pose_network: Optional[PathLike] = None,
+        surface: Optional[PathLike] = None,
+        mesh: Optional[PathLike] = None,
         models: Optional[Models] = None,
         bones_m: Optional[Mapping[int, npt.ArrayLike]] = None,
         person: Union[PathLike, Sequence[PathLike], None] = None,
@@ -269,7 +288,8 @@ class Tracker:
     ) -> None:
         given = dict(locals())
         _check.one_of("method", method, METHODS)
-        files = {name: given[name] for name in ("model", "refinement", "learned", "prior", "database")}
+        names = ("model", "refinement", "learned", "prior", "database", "pose_network", "surface", "mesh")
+        files = {name: given[name] for name in names}
         options = {
             "method": method,
             "physics": _check.flag("physics", physics),
