@@ -10,6 +10,15 @@
 namespace ossa {
 namespace {
 
+// A library prints nothing. First of all tests: TBB says it once.
+TEST(ParallelFor, SaysNothingOfThreadsThatThereAreNot) {
+  testing::internal::CaptureStderr();
+  std::atomic<int> done = 0;
+  ParallelFor(5000, 2000, [&](size_t) { ++done; });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(done, 5000);
+}
+
 TEST(ParallelFor, DoesEverythingOnceWhateverTheThreads) {
   for (const int threads : {1, 2, 7}) {
     std::vector<std::atomic<int>> done(100);

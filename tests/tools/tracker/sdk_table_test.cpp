@@ -1,7 +1,9 @@
 // docs/kinect_sdk.md names a test for each SDK feature: here it is read, and each must exist.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -48,6 +50,28 @@ TEST(SdkTable, NamesOnlyTestsThatExistAndOneInEachRow) {
       EXPECT_EQ(existing.count(name->str()), 1U) << name->str() << " of: " << line;
   }
   EXPECT_GE(rows, 15);  // the table is there, and was found
+}
+
+// What the page tells C programs to call is there.
+TEST(SdkTable, NamesOnlyWhatTheCHeaderHas) {
+  const auto words = [](const std::filesystem::path& file, const std::string& pattern) {
+    std::ifstream stream(ossa::test::SourceFolder() / file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::regex word(pattern);
+    std::set<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), word), none; at != none; ++at)
+      found.insert(at->str(1));
+    return found;
+  };
+  const auto in_header = words("tools/tracker/include/ossa/ossa_c.h", "([A-Za-z_]+)");
+  const auto calls = words("docs/kinect_sdk.md", "(ossa_[a-z_]*[a-z])\\b");
+  const auto members = words("docs/kinect_sdk.md", "ossa_[a-z_]+\\.([a-z_]{2,})");
+  EXPECT_GT(calls.size(), 15U);
+  for (const std::string& call : calls) {
+    const bool is_file = call == "ossa_c";  // ossa_c.h
+    EXPECT_TRUE(is_file || in_header.contains(call)) << call;
+  }
+  for (const std::string& member : members) EXPECT_TRUE(in_header.contains(member)) << member;
 }
 
 }  // namespace

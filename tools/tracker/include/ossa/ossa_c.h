@@ -82,7 +82,9 @@ typedef struct {
   uint32_t struct_size;
   int32_t width, height;    /* pixels */
   double fx, fy, cx, cy;    /* pixels: u = cx - fx x/z, v = cy - fy y/z */
-  const uint16_t* depth_mm; /* width x height, row by row, millimetres, 0 = no reading */
+  const uint16_t* depth_mm; /* width x height, row by row, millimetres, 0 = no reading; not
+                               mirrored, as the images of Kinect SDKs, OpenNI2 and libfreenect2 are
+                               by default: people's left would be their right */
   double time_s;            /* when it was taken; any origin */
 } ossa_depth_image;
 
