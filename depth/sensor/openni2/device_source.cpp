@@ -1,8 +1,12 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -241,30 +245,65 @@ class Device {
   Clock::time_point last_frame_at_;
 };
 
+class DeviceSource;
+
+// Those that are open. The program's end destroys what drivers have before it destroys objects that
+// are older than the drivers, a static one that holds a source for instance: closing that would
+// then crash. So they are closed when the end begins.
+class OpenDevices {
+ public:
+  static OpenDevices& Instance() {
+    static auto* instance = new OpenDevices;  // never destroyed
+    return *instance;
+  }
+  void Add(DeviceSource* source);
+  void Remove(DeviceSource* source);
+
+ private:
+  static void EndAll();
+
+  std::mutex mutex_;
+  std::map<DeviceSource*, pid_t> sources_;  // and the process that opened them: a child has no part
+};
+
 // A device, whichever of the program's threads asks for its frames.
 class DeviceSource final : public FrameSource {
  public:
   DeviceSource(const std::string& uri, const SourceOptions& options) {
     try {
       thread_->Run([&] { device_ = std::make_unique<Device>(uri, options); });
+      OpenDevices::Instance().Add(this);
       Wait(options);
     } catch (...) {
+      OpenDevices::Instance().Remove(this);
       End();
       throw;
     }
   }
-  ~DeviceSource() override { End(); }
+  ~DeviceSource() override {
+    OpenDevices::Instance().Remove(this);
+    End();
+  }
   DeviceSource(const DeviceSource&) = delete;
   DeviceSource& operator=(const DeviceSource&) = delete;
 
   ReadResult Read(milliseconds timeout) override {
-    ReadResult read;
-    thread_->Run([&] { read = device_->Read(timeout); });
+    ReadResult read{.status = ReadStatus::kDisconnected, .frame = {}};
+    thread_->Run([&] {
+      if (device_) read = device_->Read(timeout);  // else the program ends
+    });
     return read;
   }
-  const Camera& camera() const override { return device_->camera(); }
+  const Camera& camera() const override { return device_ ? device_->camera() : last_camera_; }
   bool is_live() const override { return true; }
   std::optional<int64_t> frame_count() const override { return std::nullopt; }
+
+  void End() {
+    thread_->Run([this] {
+      if (device_) last_camera_ = device_->camera();
+      device_.reset();
+    });
+  }
 
  private:
   // Here, since keep_waiting may look at what its own thread alone is told, as Python's of Ctrl-C.
@@ -278,13 +317,32 @@ class DeviceSource final : public FrameSource {
       std::this_thread::sleep_for(kSlice);
     }
   }
-  void End() {
-    thread_->Run([this] { device_.reset(); });
-  }
 
   BorrowedThread thread_;
-  std::unique_ptr<Device> device_;
+  std::unique_ptr<Device> device_;  // none when the program ends
+  Camera last_camera_;
 };
+
+// What ends first was begun last: asked for anew each time, since drivers that were unloaded and
+// are loaded again are younger than what was asked for before.
+void OpenDevices::Add(DeviceSource* source) {
+  const std::lock_guard lock(mutex_);
+  if (sources_.empty()) std::atexit(&EndAll);
+  sources_[source] = getpid();
+}
+
+void OpenDevices::Remove(DeviceSource* source) {
+  const std::lock_guard lock(mutex_);
+  sources_.erase(source);
+}
+
+void OpenDevices::EndAll() {
+  OpenDevices& all = Instance();
+  const std::lock_guard lock(all.mutex_);
+  for (const auto& [source, process] : all.sources_) {
+    if (process == getpid()) source->End();
+  }
+}
 
 }  // namespace
 

@@ -51,6 +51,31 @@ int NumberOf(const DepthFrame& frame, int count) {
   return -1;
 }
 
+// Held by what is older than the drivers, which the program's end destroys first.
+std::unique_ptr<FrameSource> g_held_to_the_end;
+struct LooksAtTheEnd {
+  ~LooksAtTheEnd() {
+    if (!g_held_to_the_end) return;
+    const bool is_closed =
+        g_held_to_the_end->Read(milliseconds(0)).status == ReadStatus::kDisconnected;
+    if (!is_closed) _exit(3);
+  }
+} g_looks_at_the_end;
+
+TEST(DeviceDeathTest, EndsBeforeItsDriverDoesWhoeverHoldsIt) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto hold = [] {
+    {
+      const TemporaryFolder folder;
+      WriteExampleFolder(folder.path(), 3);
+      g_held_to_the_end = OpenSource(Uri(folder, "?loop=1"));
+      NextFrame(*g_held_to_the_end);
+    }
+    exit(0);  // NOLINT(concurrency-mt-unsafe): that is what is tried
+  };
+  EXPECT_EXIT(hold(), testing::ExitedWithCode(0), "");
+}
+
 // OpenNI2 takes it for a device that plays without end.
 TEST(Device, IsNoneWhereTheUriIsARecording) {
   const TemporaryFolder folder;
