@@ -32,6 +32,22 @@ DepthFrame Turned(const DepthFrame& frame, int quarters) {
       Turned(image, quarters).data, Turned(frame.camera, quarters), frame.time_s, frame.index, {}};
 }
 
+DepthFrame Unmirrored(const DepthFrame& frame) {
+  const DepthView view = frame.view();
+  DepthFrame made;
+  made.depth_mm.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
+  for (int v = 0; v < view.height; ++v) {
+    const uint16_t* row = view.data_mm + static_cast<ptrdiff_t>(v) * view.stride;
+    std::reverse_copy(row, row + view.width,
+                      made.depth_mm.begin() + static_cast<ptrdiff_t>(v) * view.width);
+  }
+  made.camera = frame.camera;
+  made.camera.cx = frame.camera.width - 1 - frame.camera.cx;
+  made.time_s = frame.time_s;
+  made.index = frame.index;
+  return made;
+}
+
 // A pixel's offsets from the centre are -x and -y: what lies below the centre, at -y, comes to lie
 // left of it, at x.
 Eigen::Matrix3d CameraFromTurned(int quarters) {

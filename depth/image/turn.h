@@ -31,6 +31,11 @@ Camera Turned(const Camera& camera, int quarters);
 
 DepthFrame Turned(const DepthFrame& frame, int quarters);
 
+/// As the sensor looks, of an image as a mirror shows it (u = cx + fx x/z, which Kinect SDKs,
+/// OpenNI2 and libfreenect2 deliver by default) with the camera of that image. The same the other
+/// way round.
+DepthFrame Unmirrored(const DepthFrame& frame);
+
 /// Takes points and directions of the turned camera's space to the camera's.
 Eigen::Matrix3d CameraFromTurned(int quarters);
 

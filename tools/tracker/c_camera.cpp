@@ -1,7 +1,9 @@
 // Between pixels and camera space, behind ossa_c.h.
+#include <algorithm>
 #include <string>
 
 #include "depth/image/camera.h"
+#include "depth/image/turn.h"
 #include "tools/tracker/c_interface_internal.h"
 #include "tools/tracker/c_tracker_internal.h"
 
@@ -28,6 +30,23 @@ ossa::depth::Camera ossa::tracker::CameraFrom(const ossa_depth_image& image) {
   const depth::Camera camera = {image.width, image.height, image.fx, image.fy, image.cx, image.cy};
   depth::CheckCamera(camera, "ossa_depth_image");
   return camera;
+}
+
+ossa_status ossa_unmirror(ossa_depth_image* image, uint16_t* depth_mm) {
+  return Guarded([&] {
+    RequireNotNull(image, "ossa_unmirror", "an image");
+    RequireNotNull(depth_mm, "ossa_unmirror", "a place for its depths");
+    const ossa_depth_image given = ReadStruct(*image);
+    RequireNotNull(given.depth_mm, "ossa_unmirror", "depths");
+    ossa::depth::DepthFrame mirrored;
+    mirrored.camera = CameraFrom(given);
+    mirrored.borrowed = {given.depth_mm, given.width, given.height, given.width};
+    const ossa::depth::DepthFrame frame = ossa::depth::Unmirrored(mirrored);
+    std::copy(frame.depth_mm.begin(), frame.depth_mm.end(), depth_mm);
+    image->depth_mm = depth_mm;
+    image->cx = frame.camera.cx;
+    return OSSA_OK;
+  });
 }
 
 ossa_status ossa_project(const ossa_depth_image* image, const float point_m[3], float pixel_uv[2]) {

@@ -71,7 +71,7 @@ ossa_skin PoseSkin(const Body& body, const ossa::recon::BodyMesh& mesh,
   ossa_skin skin{};
   skin.body_id = body.id;
   skin.triangle_count = static_cast<int32_t>(mesh.triangles.size());
-  skin.triangles = mesh.triangles.front().data();
+  if (!mesh.triangles.empty()) skin.triangles = mesh.triangles.front().data();
   if (!body.fit) return skin;
   vertices_m.clear();
   for (const Eigen::Vector3d& place_m : PoseMesh(mesh, body.fit->pose)) {

@@ -37,6 +37,28 @@ TEST_P(QuarterTurns, AreTurnedBackByTheRestOfFour) {
 
 INSTANTIATE_TEST_SUITE_P(All, QuarterTurns, testing::Values(0, 1, 2, 3));
 
+// A mirror's camera sees a point at u = cx + fx x/z.
+TEST(Unmirrored, PutsPointsWhereTheMirrorShowedThem) {
+  const DepthFrame mirrored = Marked(), frame = Unmirrored(mirrored);
+  EXPECT_EQ(frame.depth_mm[1 + 8 * 1], 2000);
+  const Eigen::Vector3d point = BackProject(frame.camera, 1, 1, 2000);
+  const Camera& mirror = mirrored.camera;
+  EXPECT_NEAR(mirror.cx + mirror.fx * point.x() / point.z(), 6.0, 1e-12);
+  const DepthFrame again = Unmirrored(frame);
+  EXPECT_EQ(again.depth_mm, mirrored.depth_mm);
+  EXPECT_EQ(again.camera, mirrored.camera);
+}
+
+TEST(Unmirrored, LeavesABorrowedImageAlone) {
+  DepthFrame owner = Marked();
+  DepthFrame part = owner;
+  part.depth_mm.clear();
+  part.borrowed = {owner.depth_mm.data() + 4, 4, 6, 8};  // its right half
+  part.camera.width = 4;
+  EXPECT_EQ(Unmirrored(part).depth_mm[1 + 4 * 1], 2000);
+  EXPECT_EQ(owner.depth_mm, Marked().depth_mm);
+}
+
 TEST(QuarterTurn, IsClockwise) {
   const DepthFrame turned = Turned(Marked(), 1);
   EXPECT_EQ(turned.camera.width, 6);

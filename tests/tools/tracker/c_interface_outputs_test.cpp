@@ -357,6 +357,22 @@ TEST(CInterface, PixelsAndCameraSpaceMapBothWays) {
   EXPECT_EQ(ossa_back_project(&image, uv, 0.0F, again_m), OSSA_FAILED);
 }
 
+// Left is left again, where the mirror had exchanged them.
+TEST(CInterface, MirroredImagesAreTurnedBack) {
+  const depth::DepthFrame frame = Rendered({PersonAt(0.4, 2.5)}).frame;
+  ossa_depth_image image = ImageOf(frame);
+  image.cx = 150.0;
+  std::vector<uint16_t> depth_mm(frame.depth_mm);
+  ASSERT_EQ(ossa_unmirror(&image, depth_mm.data()), OSSA_OK) << ossa_last_error();
+  EXPECT_EQ(image.depth_mm, depth_mm.data());
+  EXPECT_EQ(image.cx, 320 - 1 - 150.0);
+  EXPECT_EQ(depth_mm[100 * 320 + 7], frame.depth_mm[100 * 320 + 312]);
+  ASSERT_EQ(ossa_unmirror(&image, depth_mm.data()), OSSA_OK) << "where it is";
+  EXPECT_EQ(depth_mm, frame.depth_mm);
+  EXPECT_EQ(image.cx, 150.0);
+  EXPECT_EQ(ossa_unmirror(&image, nullptr), OSSA_FAILED);
+}
+
 // A person as tall as there are, seen by a camera whose view is narrower than their images' size
 // says.
 TEST(CInterface, ANarrowerCameraIsFoundForWhoAsks) {

@@ -17,6 +17,7 @@
 #include "depth/base/error.h"           // InputError: what is wrong with a file, in one line
 #include "depth/image/camera_io.h"      // cameras by name, from files
 #include "depth/image/depth_frame.h"    // DepthFrame and its Camera
+#include "depth/image/turn.h"           // Unmirrored: images as a mirror shows them
 #include "depth/sensor/frame_source.h"  // OpenSource
 #include "recon/files/skeleton_io.h"    // skeleton files in many formats
 #include "recon/methods/reconstruct_sequence.h"  // methods over recorded skeletons

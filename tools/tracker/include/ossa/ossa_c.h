@@ -83,8 +83,8 @@ typedef struct {
   int32_t width, height;    /* pixels */
   double fx, fy, cx, cy;    /* pixels: u = cx - fx x/z, v = cy - fy y/z */
   const uint16_t* depth_mm; /* width x height, row by row, millimetres, 0 = no reading; not
-                               mirrored, as the images of Kinect SDKs, OpenNI2 and libfreenect2 are
-                               by default: people's left would be their right */
+                               mirrored (ossa_unmirror), as those of Kinect SDKs, OpenNI2 and
+                               libfreenect2 are by default: people's left would be their right */
   double time_s;            /* when it was taken; any origin */
 } ossa_depth_image;
 
@@ -126,6 +126,11 @@ const char* ossa_source_take_note(ossa_source* source, int32_t* kind);
 int64_t ossa_source_frame_count(const ossa_source* source);
 /* Frames that were lost until now, between those that were read. */
 int64_t ossa_source_dropped(const ossa_source* source);
+
+/* Turns back an image that is mirrored, with fx, fy, cx, cy as of that image: u = cx + fx x/z. Its
+   rows reversed go to depth_mm, width x height, which may be where they are; *image is then of
+   those, its cx with them. What ossa_source_read delivers is as the sensor looks already. */
+ossa_status ossa_unmirror(ossa_depth_image* image, uint16_t* depth_mm);
 
 /* ---- between pixels and camera space, the Kinect SDK's CoordinateMapper ---- */
 
