@@ -3,6 +3,8 @@
 import contextlib
 import signal
 import struct
+import subprocess
+import sys
 import time
 import zlib
 
@@ -76,3 +78,25 @@ def test_nothing_half_learned_is_kept(clip, tmp_path):
             assert not out.exists()
         assert time.monotonic() - began < 60
         out.unlink(missing_ok=True)
+
+
+TRACKS_ON = """
+import threading, time, ossa
+images = list(ossa.open({clip!r}))
+tracker = ossa.Tracker(method="none")
+source = ossa.open("openni:ossa://" + {clip!r} + "?loop=1") if {live} else None
+def work():
+    for n in range(10000):
+        depth_mm, camera, _ = next(iter(source)) if source else images[n % len(images)]
+        tracker.track(depth_mm, camera, n / 30)
+threading.Thread(target=work, daemon=True).start()
+time.sleep({after_s})
+"""
+
+
+@pytest.mark.parametrize("live, after_s", [(False, 0.1), (False, 0.13), (True, 0.3)])
+def test_a_program_ends_while_a_daemon_thread_tracks(live, after_s, clip):
+    code = TRACKS_ON.format(clip=str(clip), live=live, after_s=after_s)
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stderr == ""

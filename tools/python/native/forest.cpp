@@ -18,7 +18,7 @@ namespace ossa::python {
 namespace {
 
 forest::ForestModel ReadForest(const std::string& path) {
-  const py::gil_scoped_release free;
+  const GilReleased free;
   const auto file = path.empty() ? tracker::ShippedFile("body.ossa") : std::filesystem::path(path);
   return forest::ReadForestModel(file, forest::ModelUse::kRunOnly);
 }
@@ -56,7 +56,7 @@ ForestOutput RunForestOn(const forest::ForestModel& model, const py::array& dept
   const depth::DepthView view = ToView(depth_mm);
   const depth::Camera seen_by = ToCamera(camera, view);
   const std::vector<int32_t> pixels = ListPixels(view, mask);
-  const py::gil_scoped_release free;
+  const GilReleased free;
   return RunForest(model, view, seen_by, pixels, propose);
 }
 

@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -70,12 +71,29 @@ struct Reader {
   }
 };
 
+// Of a thread that is made to exit: it stays in the handler.
+[[noreturn]] void WaitForTheEnd() {
+  for (;;) pause();
+}
+
 }  // namespace
 
+GilReleased::~GilReleased() {
+  try {
+    PyEval_RestoreThread(state_);
+  } catch (...) {  // the thread's exit: Python throws nothing else
+    WaitForTheEnd();
+  }
+}
+
 bool GoesOn() {
-  const py::gil_scoped_acquire gil;
-  // A signal is told of once: who asks again after it must not hear that all is well.
-  return PyErr_Occurred() == nullptr && PyErr_CheckSignals() == 0;
+  try {
+    const py::gil_scoped_acquire gil;
+    // A signal is told of once: who asks again after it must not hear that all is well.
+    return PyErr_Occurred() == nullptr && PyErr_CheckSignals() == 0;
+  } catch (...) {  // likewise
+    WaitForTheEnd();
+  }
 }
 
 void ThrowIfInterrupted() {

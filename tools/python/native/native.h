@@ -22,6 +22,20 @@ void AddForest(py::module_& module);
 void AddSkeletons(py::module_& module);
 void AddLearning(py::module_& module);
 
+/// The GIL let go of for as long as this lives. Once the interpreter ends, a daemon thread cannot
+/// have it back: Python makes it exit where it asks, through frames of C++ that cannot be left so,
+/// and the process would abort. It waits for the process's end instead, as from Python 3.14 on.
+class GilReleased {
+ public:
+  GilReleased() : state_(PyEval_SaveThread()) {}
+  ~GilReleased();
+  GilReleased(const GilReleased&) = delete;
+  GilReleased& operator=(const GilReleased&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
 /// Whether a long run goes on: false once Python has a signal to act on (Ctrl-C). Called without
 /// the GIL, within Interruptible.
 bool GoesOn();
@@ -34,7 +48,7 @@ template <typename Work>
 std::invoke_result_t<Work> Interruptible(const Work& work) {
   try {
     auto made = [&] {
-      const py::gil_scoped_release free;
+      const GilReleased free;
       return work();
     }();
     ThrowIfInterrupted();

@@ -211,7 +211,7 @@ void Write(const py::dict& given, const std::string& path, const py::dict& how,
   const recon::SkeletonSequence sequence = SequenceFrom(given);
   const auto text = [&](const char* key) { return how[key].cast<std::string>(); };
   const tracker::WriteChoice choice = {text("names"), text("surface"), text("mesh")};
-  const py::gil_scoped_release free;
+  const GilReleased free;
   recon::SkeletonWriter writer(path, tracker::LoadWriteOptions(path, choice));
   for (const auto& [id, shape] : shapes) {
     writer.SetShape(id, Eigen::Map<const recon::ShapeVector>(shape.data()));

@@ -57,7 +57,7 @@ class Source {
   depth::FrameSource& Opened();
   template <typename Ask>
   std::invoke_result_t<Ask, depth::FrameSource&> Locked(const Ask& ask) {
-    const py::gil_scoped_release free;
+    const GilReleased free;
     const std::lock_guard lock(mutex_);
     return ask(Opened());
   }

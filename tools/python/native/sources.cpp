@@ -103,7 +103,7 @@ void Source::TakeCamera(const py::tuple& camera) {
 py::tuple Source::Read(int timeout_ms) {
   depth::ReadResult read;
   {
-    const py::gil_scoped_release free;
+    const GilReleased free;
     read = Next(timeout_ms);
   }
   if (read.status != depth::ReadStatus::kFrame) {
@@ -116,7 +116,7 @@ py::tuple Source::Read(int timeout_ms) {
 }
 
 void Source::Close() {
-  const py::gil_scoped_release free;
+  const GilReleased free;
   const std::lock_guard lock(mutex_);
   frames_.reset();
 }

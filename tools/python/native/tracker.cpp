@@ -109,7 +109,7 @@ struct Models {
 Models LoadModels(const py::dict& files, const std::string& method) {
   const tracker::ModelFiles named = ReadModelFiles(files);
   const auto mesh = files["mesh"].cast<std::string>();
-  const py::gil_scoped_release free;
+  const GilReleased free;
   Models models{tracker::ModelSet::Load(named, method), method, nullptr};
   if (models.set.surface) models.mesh = tracker::LoadBodyMesh(named.surface, mesh);
   return models;
@@ -297,7 +297,7 @@ class Tracker {
         LoadPeople(given["person"].cast<std::vector<std::string>>(), models.set.surface.get());
     with_proposals_ = options.keep_proposals;
     options_ = options;
-    const py::gil_scoped_release free;
+    const GilReleased free;
     tracker_.emplace(options);
     if (options.fit) mesh_ = models.mesh;
   }
@@ -329,7 +329,7 @@ class Tracker {
     depth::ReadResult read;
     std::optional<BodyFrame> bodies;
     {
-      const py::gil_scoped_release free;
+      const GilReleased free;
       read = source.Next(timeout_ms);
       if (read.status == depth::ReadStatus::kFrame) {
         const std::lock_guard lock(mutex_);
@@ -409,7 +409,7 @@ class Tracker {
     frame.borrowed = ToView(depth_mm);
     frame.camera = ToCamera(camera, frame.borrowed);
     frame.time_s = time_s;
-    const py::gil_scoped_release free;
+    const GilReleased free;
     const std::lock_guard lock(mutex_);
     tracker_->SetTurn(static_cast<tracker::Turn>(turn));
     frame.index = index_;
@@ -419,7 +419,7 @@ class Tracker {
 
   template <typename Change>
   void Locked(const Change& change) {
-    const py::gil_scoped_release free;
+    const GilReleased free;
     const std::lock_guard lock(mutex_);
     change(*tracker_);
   }
