@@ -145,14 +145,22 @@ std::vector<recon::MotionClip> Named(std::vector<recon::MotionClip> clips,
   return clips;
 }
 
+struct BodySettings {
+  std::vector<std::string> sources, only;
+  int clips = 0, times = 0;
+};
+
+BodySettings AskSettings(Parameters& parameters) {
+  return {parameters.Motions("mocap"), parameters.Texts("only", {}),
+          parameters.Integer("clips", 8, 1, 40), parameters.Integer("times", 1, 1, 20)};
+}
+
 }  // namespace
 
+void AskBody(ExperimentContext& context) { AskSettings(context.parameters); }
+
 std::vector<Table> RunBody(ExperimentContext& context) {
-  const auto sources = context.parameters.Texts("mocap", {"authored"});
-  const auto only = context.parameters.Texts("only", {});
-  const int count = context.parameters.Integer("clips", 8, 1, 40);
-  const int times = context.parameters.Integer("times", 1, 1, 20);
-  if (sources.empty()) throw InputError("experiment body: mocap: expected motion, found none");
+  const auto [sources, only, count, times] = AskSettings(context.parameters);
   BodyPainter painter;
   recon::RigPose rest;
   rest.root_m = recon::StandardRigRest().head_m[0];

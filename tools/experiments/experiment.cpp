@@ -43,6 +43,20 @@ std::string ComputeLoadedCodeKey() {
   return key;
 }
 
+// That the files and the folder that the user named are there: a study would else tell of it after
+// its first part, or do without.
+void ExpectFilesOf(const ExperimentContext& context) {
+  namespace fs = std::filesystem;
+  if (!context.shared.empty() && !fs::is_directory(context.shared)) {
+    throw InputError(context.shared.string() + ": no such folder; expected that of --shared");
+  }
+  for (const fs::path& file : {context.model, context.database}) {
+    if (file.empty() || fs::is_regular_file(file)) continue;
+    throw InputError(file.string() + ": no such file; expected a " +
+                     (file == context.model ? "model" : "posture database"));
+  }
+}
+
 }  // namespace
 
 void ExperimentContext::StopIfAsked() const {
@@ -87,9 +101,11 @@ std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& con
     for (const Experiment& e : Experiments()) known.append(" ").append(e.name);
     throw InputError("experiment '" + name + "': expected one of" + known);
   }
+  ExpectFilesOf(context);
+  found->ask(context);
+  context.parameters.ExpectAllUsed();
   std::filesystem::create_directories(context.out);
   const std::vector<Table> tables = found->run(context);
-  context.parameters.ExpectAllUsed();
   std::string markdown =
       fmt::format("## ossa experiment {} (seed {})\n\n", found->name, context.seed);
   nlohmann::json summary = {{"experiment", found->name}, {"seed", context.seed}};

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -24,34 +25,50 @@ struct Table {
 std::string ToMarkdown(const Table& table);
 
 /// The numbers and names a study may be given in a TOML file, flat `key = value` lines. Asking
-/// names the key and its default, so what a study can be told is what it asks for; keys nobody
-/// asked for are refused at the end, so that a misspelt one is not silently ignored.
+/// names the key and its default, so what a study can be told is what it asks for. A study asks for
+/// all of them before it computes anything (Experiment::ask): one that is misspelt or out of range
+/// would else be told of after hours. Values that do not fit are InputErrors with their line.
 class Parameters {
  public:
   // A bound, so that products of counts fit 64 bits
   static constexpr int kMostInteger = 1'000'000'000;
+  // Of numbers without a bound.
+  static constexpr double kMostNumber = std::numeric_limits<double>::max();
+  static constexpr double kLeastNumber = -kMostNumber;
 
   Parameters() = default;
   /// Throws InputError with file, line and column for what is no TOML, or not flat.
   static Parameters FromToml(const std::filesystem::path& path);
 
-  double Number(const std::string& key, double usual);
+  double Number(const std::string& key, double usual, double least = kLeastNumber,
+                double most = kMostNumber);
   /// Throws InputError for less than `least` or more than `most`.
   int Integer(const std::string& key, int usual, int least = 0, int most = kMostInteger);
   bool Flag(const std::string& key, bool usual);
   std::string Text(const std::string& key, const std::string& usual);
   std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);
+  std::string OneOf(const std::string& key, const std::vector<std::string>& known,
+                    const std::string& usual);
+  /// What recon::LoadMocap() takes: `authored`, `authored-floor`, or a file or folder that is
+  /// there; of Motions() one at least.
+  std::string Motion(const std::string& key, const std::string& usual);
+  std::vector<std::string> Motions(const std::string& key);  // authored by default
   /// Some of `known`, all by default. Throws InputError for any other.
   std::set<std::string> Some(const std::string& key, const std::vector<std::string>& known);
   /// The same, `usual` by default, in the order in which they are given.
   std::vector<std::string> Some(const std::string& key, const std::vector<std::string>& known,
                                 const std::vector<std::string>& usual);
-  std::vector<double> Numbers(const std::string& key, const std::vector<double>& usual);
+  std::vector<double> Numbers(const std::string& key, const std::vector<double>& usual,
+                              double least = kLeastNumber, double most = kMostNumber);
+  /// The same, whole numbers, one at least.
+  std::vector<int> Integers(const std::string& key, const std::vector<int>& usual, int least,
+                            int most = kMostInteger);
 
   /// What was used, as TOML: written beside the results so that the study can be repeated.
   std::string Used() const;
-  /// Throws InputError for a key of the file that was never asked for.
-  void ExpectAllUsed() const;
+  /// Throws InputError for a key of the file that was never asked for. From here on whoever asks
+  /// for one that nobody asked for before breaks a promise: std::logic_error.
+  void ExpectAllUsed();
 
  private:
   struct Value {
@@ -62,8 +79,11 @@ class Parameters {
     int line = 0;
   };
   const Value* Find(const std::string& key, bool numbers, bool list);
+  void ExpectMotion(const std::string& key, const std::string& source) const;
+  [[noreturn]] void FailAt(const std::string& key, const std::string& expected) const;
 
   std::string source_;
+  bool all_asked_ = false;
   std::map<std::string, Value> values_;
   std::map<std::string, std::string> used_;
 };
@@ -106,6 +126,9 @@ struct Interruption {};
 struct Experiment {
   std::string_view name;
   std::string_view summary;
+  /// Asks for every parameter that the study has, whatever parts of it are wanted, and computes
+  /// nothing.
+  void (*ask)(ExperimentContext&);
   std::vector<Table> (*run)(ExperimentContext&);
 };
 
@@ -117,7 +140,8 @@ std::span<const Experiment> Experiments();
 const Experiment* FindExperiment(std::string_view name);
 
 /// Runs one: writes TABLE.md, parameters.toml and summary.json to context.out and returns the
-/// tables. Throws InputError for an unknown name or missing data.
+/// tables. Throws InputError for an unknown name or missing data, and, before anything is computed,
+/// for parameters that are unknown or wrong and for files of the context that are not there.
 std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& context);
 
 }  // namespace ossa::tools

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
 #include "depth/base/error.h"
 #include "depth/base/open_file.h"
@@ -32,6 +35,13 @@ std::string InToml(const Values& values, Format format) {
   std::string text = "[";
   for (size_t i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + format(values[i]);
   return text + "]";
+}
+
+/// " of LEAST or more", " of LEAST to MOST" for messages; `boundless`: a `most` that is no bound.
+template <typename T>
+std::string InRange(T least, T most, T boundless) {
+  if (most == boundless) return fmt::format(" of {} or more", least);
+  return fmt::format(" of {} to {}", least, most);
 }
 
 std::string ReadText(const std::filesystem::path& path) {
@@ -85,7 +95,14 @@ Parameters Parameters::FromToml(const std::filesystem::path& path) {
   return parameters;
 }
 
+void Parameters::FailAt(const std::string& key, const std::string& expected) const {
+  Fail(source_, values_.at(key).line, expected);
+}
+
 const Parameters::Value* Parameters::Find(const std::string& key, bool numbers, bool list) {
+  if (all_asked_ && !used_.contains(key)) {
+    throw std::logic_error("parameter '" + key + "': not asked for before the study began");
+  }
   const auto found = values_.find(key);
   if (found == values_.end()) return nullptr;
   const Value& value = found->second;
@@ -105,10 +122,11 @@ bool Parameters::Flag(const std::string& key, bool usual) {
   return flag;
 }
 
-double Parameters::Number(const std::string& key, double usual) {
+double Parameters::Number(const std::string& key, double usual, double least, double most) {
   const Value* value = Find(key, true, false);
   if (value != nullptr && value->flag) Fail(source_, value->line, key + " as a number");
   const double number = value != nullptr ? value->numbers.at(0) : usual;
+  if (number < least || number > most) FailAt(key, key + InRange(least, most, kMostNumber));
   used_[key] = fmt::format("{}", number);
   return number;
 }
@@ -116,12 +134,9 @@ double Parameters::Number(const std::string& key, double usual) {
 int Parameters::Integer(const std::string& key, int usual, int least, int most) {
   const double number = Number(key, usual);
   if (number != std::floor(number) || std::abs(number) > kMostInteger) {
-    Fail(source_, values_.at(key).line, key + " as a whole number");
+    FailAt(key, key + " as a whole number");
   }
-  if (number < least || number > most) {
-    const std::string end = most == kMostInteger ? " or more" : fmt::format(" to {}", most);
-    Fail(source_, values_.at(key).line, fmt::format("{} of {}{}", key, least, end));
-  }
+  if (number < least || number > most) FailAt(key, key + InRange(least, most, kMostInteger));
   used_[key] = fmt::format("{}", static_cast<int>(number));
   return static_cast<int>(number);
 }
@@ -131,6 +146,35 @@ std::string Parameters::Text(const std::string& key, const std::string& usual) {
   const std::string text = value != nullptr ? value->texts.at(0) : usual;
   used_[key] = InToml(text);
   return text;
+}
+
+std::string Parameters::OneOf(const std::string& key, const std::vector<std::string>& known,
+                              const std::string& usual) {
+  std::string text = Text(key, usual);
+  if (std::find(known.begin(), known.end(), text) == known.end()) {
+    FailAt(key, fmt::format("{} as one of {}; found '{}'", key, fmt::join(known, ", "), text));
+  }
+  return text;
+}
+
+void Parameters::ExpectMotion(const std::string& key, const std::string& source) const {
+  if (source == "authored" || source == "authored-floor") return;
+  if (!values_.contains(key) || std::filesystem::exists(source)) return;
+  FailAt(key, fmt::format("{} as a folder or file of motion, or the word 'authored'; found '{}'",
+                          key, source));
+}
+
+std::string Parameters::Motion(const std::string& key, const std::string& usual) {
+  std::string source = Text(key, usual);
+  if (source != usual) ExpectMotion(key, source);
+  return source;
+}
+
+std::vector<std::string> Parameters::Motions(const std::string& key) {
+  const auto sources = Texts(key, {"authored"});
+  if (sources.empty()) FailAt(key, key + " as a list of one or more");
+  for (const std::string& source : sources) ExpectMotion(key, source);
+  return sources;
 }
 
 std::vector<std::string> Parameters::Texts(const std::string& key,
@@ -147,8 +191,7 @@ std::vector<std::string> Parameters::Some(const std::string& key,
   std::vector<std::string> some = Texts(key, usual);
   for (const std::string& text : some) {
     if (std::find(known.begin(), known.end(), text) != known.end()) continue;
-    throw InputError(fmt::format("{}: parameter {}: expected some of {}; found '{}'", source_, key,
-                                 fmt::join(known, ", "), text));
+    FailAt(key, fmt::format("{} as some of {}; found '{}'", key, fmt::join(known, ", "), text));
   }
   return some;
 }
@@ -159,11 +202,28 @@ std::set<std::string> Parameters::Some(const std::string& key,
   return {some.begin(), some.end()};
 }
 
-std::vector<double> Parameters::Numbers(const std::string& key, const std::vector<double>& usual) {
+std::vector<double> Parameters::Numbers(const std::string& key, const std::vector<double>& usual,
+                                        double least, double most) {
   const Value* value = Find(key, true, true);
+  if (value != nullptr && value->flag) FailAt(key, key + " as a list of numbers");
   const auto numbers = value != nullptr ? value->numbers : usual;
+  for (const double number : numbers) {
+    if (number >= least && number <= most) continue;
+    FailAt(key, key + " each" + InRange(least, most, kMostNumber));
+  }
   used_[key] = InToml(numbers, [](double number) { return fmt::format("{}", number); });
   return numbers;
+}
+
+std::vector<int> Parameters::Integers(const std::string& key, const std::vector<int>& usual,
+                                      int least, int most) {
+  std::vector<int> integers;
+  for (const double number : Numbers(key, {usual.begin(), usual.end()}, least, most)) {
+    if (number != std::floor(number)) FailAt(key, key + " as a list of whole numbers");
+    integers.push_back(static_cast<int>(number));
+  }
+  if (integers.empty()) FailAt(key, key + " as a list of one or more");
+  return integers;
 }
 
 std::string Parameters::Used() const {
@@ -172,13 +232,14 @@ std::string Parameters::Used() const {
   return text;
 }
 
-void Parameters::ExpectAllUsed() const {
+void Parameters::ExpectAllUsed() {
   for (const auto& [key, value] : values_) {
     if (used_.contains(key)) continue;
     std::string known;
     for (const auto& [name, text] : used_) known.append(known.empty() ? "" : ", ").append(name);
     Fail(source_, value.line, fmt::format("one of {}; found {}", known, key));
   }
+  all_asked_ = true;
 }
 
 }  // namespace ossa::tools

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 #include "depth/base/error.h"
 #include "recon/body/body_model.h"
@@ -10,6 +12,10 @@
 
 namespace ossa::tools {
 namespace {
+
+void ExpectHas(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << text << "' lacks '" << part << "'";
+}
 
 class StudyParameters : public testing::Test {
  protected:
@@ -106,6 +112,97 @@ TEST_F(StudyParameters, MayBeFlags) {
   EXPECT_FALSE(p.Flag("other", false));
   EXPECT_THROW(p.Flag("samples", false), InputError);
   EXPECT_NE(p.Used().find("full = true"), std::string::npos);
+}
+
+TEST_F(StudyParameters, ThatAreOutOfRangeAreRefusedByLine) {
+  Parameters p = From(
+      "hours = -1\nsplit = \"tset\"\nmotion = \"/nowhere\"\nmotions = []\ndepths = [5, 30]\n"
+      "images = [10, 10.5]\n");
+  const auto complaint = [](const auto& ask) {
+    try {
+      ask();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  ExpectHas(complaint([&] { p.Number("hours", 1, 0); }), "line 1: expected hours of 0 or more");
+  ExpectHas(complaint([&] { p.Number("hours", 1, 0, 720); }), "line 1: expected hours of 0 to 720");
+  ExpectHas(complaint([&] {
+              p.OneOf("split", {"train", "test"}, "test");
+            }),
+            "line 2: expected split as one of train, test; found 'tset'");
+  ExpectHas(complaint([&] { p.Motion("motion", "authored"); }),
+            "line 3: expected motion as a folder or file of motion");
+  ExpectHas(complaint([&] { p.Motions("motions"); }), "line 4: expected motions as a list");
+  ExpectHas(complaint([&] { p.Integers("depths", {5}, 1, 24); }),
+            "line 5: expected depths each of 1 to 24");
+  ExpectHas(complaint([&] { p.Integers("images", {5}, 1); }),
+            "line 6: expected images as a list of whole numbers");
+}
+
+// What is misspelt would else be told of after hours.
+TEST_F(StudyParameters, AreAllAskedForBeforeTheStudyBegins) {
+  Parameters p = From("samples = 7\n");
+  p.Integer("samples", 100);
+  p.ExpectAllUsed();
+  EXPECT_EQ(p.Integer("samples", 100), 7) << "again";
+  EXPECT_THROW(p.Integer("smaples", 100), std::logic_error);
+}
+
+class EveryExperiment : public StudyParameters {
+ protected:
+  // What RunExperiment() says of the parameters; it takes up nothing.
+  std::string Refusal(const Experiment& experiment, const std::string& parameters) {
+    ExperimentContext context;
+    context.out = folder_ / "out";
+    context.parameters = From(parameters);
+    context.interrupted = [] { return true; };
+    try {
+      RunExperiment(std::string(experiment.name), context);
+    } catch (const InputError& error) {
+      EXPECT_FALSE(std::filesystem::exists(context.out)) << "begun";
+      return error.what();
+    } catch (const Interruption&) {
+    }
+    return {};
+  }
+};
+
+TEST_F(EveryExperiment, RefusesAMisspeltParameterBeforeItBegins) {
+  for (const Experiment& experiment : Experiments()) {
+    SCOPED_TRACE(experiment.name);
+    const std::string refusal = Refusal(experiment, "\nmisspelt = 3\n");
+    ExpectHas(refusal, "p.toml: line 2");
+    ExpectHas(refusal, "found misspelt");
+  }
+}
+
+TEST_F(EveryExperiment, RefusesAParameterOfAPartThatComesLate) {
+  const auto refusal = [&](const char* name, const std::string& parameters) {
+    return Refusal(*FindExperiment(name), parameters);
+  };
+  const std::string line = "p.toml: line 1: expected ";
+  ExpectHas(refusal("fit", "shape_people_per_height = 21\n"), line);
+  ExpectHas(refusal("sdk", "lag_every_nth_clip = 0\n"), line);
+  ExpectHas(refusal("plantard-2016", "database_mocap = \"/nowhere\"\n"), line);
+  ExpectHas(refusal("person-classifier", "check_mocap = \"/nowhere\"\n"), line);
+  ExpectHas(refusal("shum-ho-2012", "endurance_hours = -1\n"), line);
+  ExpectHas(refusal("shum-ho-2012", "observer = \"forrest\"\n"), line);
+  ExpectHas(refusal("shotton-2011", "depths = [5, 30]\n"), line);
+  ExpectHas(refusal("liu-2016", "folds = 4\n"), line);
+  ExpectHas(refusal("indoor-scenes", "method = \"bets\"\n"), line);
+}
+
+TEST_F(EveryExperiment, RefusesFoldersAndFilesThatAreNotThere) {
+  ExperimentContext context;
+  context.out = folder_ / "out";
+  context.interrupted = [] { return true; };
+  context.shared = "/nowhere";
+  EXPECT_THROW(RunExperiment("shum-2013", context), InputError);
+  context.shared.clear();
+  context.model = "/nowhere.ossa";
+  EXPECT_THROW(RunExperiment("shum-2013", context), InputError);
 }
 
 TEST(CachedResults, AreComputedOnceAndSurviveOnlyTheirOwnKey) {
@@ -217,14 +314,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"body", "times = 21\n", "line 1: expected times of 1 to 20"},
                     Refusal{"sensor", "frames = 1\n", "line 1: expected frames of 2 to 10000"},
                     Refusal{"sensor", "frames = 10001\n", "line 1: expected frames of 2 to 10000"},
-                    Refusal{"body", "mocap = []\n", "mocap: expected motion"},
+                    Refusal{"body", "mocap = []\n", "line 1: expected mocap as a list of one"},
                     Refusal{"sdk", "every_nth_clip = 0\n",
                             "line 1: expected every_nth_clip of 1 or more"},
                     Refusal{"sdk", "data = [\"hardst\"]\n", "found 'hardst'"},
                     Refusal{"sdk", "data = []\n", "expected some of correct, incorrect"},
                     Refusal{"sdk", "data = [\"hardest\"]\n", "expected some of correct, incorrect"},
                     Refusal{"sdk", "methods = [\"bets\"]\n", "found 'bets'"},
-                    Refusal{"liu-2016", "folds = 0\n", "line 1: expected folds of 1 or more"}),
+                    Refusal{"liu-2016", "folds = 0\n", "line 1: expected folds of 1 to 3"}),
     [](const auto& info) { return std::to_string(info.index); });
 
 }  // namespace

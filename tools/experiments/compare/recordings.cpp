@@ -23,6 +23,25 @@ fs::path Need(const fs::path& shared, const char* inside) {
   return path;
 }
 
+std::vector<const char*> FoldersOf(RecordingSet set) {
+  switch (set) {
+    case RecordingSet::kUiPrmd:
+      return {"real/uiprmd_kinect_vicon/derived"};
+    case RecordingSet::kItop:
+      return {"real/itop_a2j/itop_side_truth_and_a2j.csv.gz"};
+    case RecordingSet::kKeraal:
+      return {"real/keraal_kinect_vicon/pairs"};
+    case RecordingSet::kWithoutTruth:
+      break;
+  }
+  return {"real/keraal_kinect_vicon/kinect_only", "real/sdk_skeletons/labanotation_v2_csv",
+          "real/sdk_skeletons/kinectgait_v1_txt"};
+}
+
+fs::path Need(const fs::path& shared, RecordingSet set) {
+  return Need(shared, FoldersOf(set).front());
+}
+
 std::vector<RecordedPair> PairsIn(const fs::path& path) {
   recon::SkeletonReadOptions options;
   options.columns = "observed";
@@ -43,22 +62,28 @@ std::vector<RecordedPair> PairsIn(const fs::path& path) {
 
 }  // namespace
 
+void ExpectRecordings(const fs::path& shared, const std::vector<RecordingSet>& wanted) {
+  for (const RecordingSet set : wanted) {
+    for (const char* inside : FoldersOf(set)) Need(shared, inside);
+  }
+}
+
 std::vector<RecordedPair> LoadUiPrmd(const fs::path& shared, bool incorrect) {
-  auto pairs = PairsIn(Need(shared, "real/uiprmd_kinect_vicon/derived"));
+  auto pairs = PairsIn(Need(shared, RecordingSet::kUiPrmd));
   std::erase_if(pairs,
                 [&](const RecordedPair& pair) { return pair.clip.ends_with("_inc") != incorrect; });
   return pairs;
 }
 
 std::vector<RecordedPair> LoadItop(const fs::path& shared) {
-  auto pairs = PairsIn(Need(shared, "real/itop_a2j/itop_side_truth_and_a2j.csv.gz"));
+  auto pairs = PairsIn(Need(shared, RecordingSet::kItop));
   for (RecordedPair& pair : pairs) pair.clip = pair.subject = "itop_side";
   return pairs;
 }
 
 std::vector<RecordedPair> LoadKeraal(const fs::path& shared) {
   std::map<std::string, RecordedPair> pairs;
-  for (auto& clip : recon::ReadSkeletonClips(Need(shared, "real/keraal_kinect_vicon/pairs"))) {
+  for (auto& clip : recon::ReadSkeletonClips(Need(shared, RecordingSet::kKeraal))) {
     const bool vicon = clip.name.find("-Vicon-") != std::string::npos;
     std::string name = clip.name;
     const std::string mark = vicon ? "-Vicon-" : "-Kinect-";
@@ -80,9 +105,7 @@ std::vector<RecordedPair> LoadKeraal(const fs::path& shared) {
 
 std::vector<RecordedPair> LoadWithoutTruth(const fs::path& shared) {
   std::vector<RecordedPair> all;
-  for (const char* inside :
-       {"real/keraal_kinect_vicon/kinect_only", "real/sdk_skeletons/labanotation_v2_csv",
-        "real/sdk_skeletons/kinectgait_v1_txt"}) {
+  for (const char* inside : FoldersOf(RecordingSet::kWithoutTruth)) {
     const fs::path folder = Need(shared, inside);
     for (auto& clip : recon::ReadSkeletonClips(folder)) {
       RecordedPair recorded;

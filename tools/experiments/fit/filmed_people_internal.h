@@ -39,6 +39,13 @@ class PeopleFilm {
   std::vector<FilmedPerson> people_;
 };
 
+/// How many people are rendered of each height, and whether of the shapes kept for training.
+struct FitSettings {
+  int people_per_height = 0, start_people_per_height = 0, shape_people_per_height = 0;
+  bool train_shapes = false;
+};
+FitSettings AskForFit(Parameters& parameters);
+
 /// Stature and joints with their error bars, as people are and in loose clothes.
 std::vector<Table> FitPeople(ExperimentContext& context);
 /// How far off joints may be to begin with.

@@ -98,9 +98,17 @@ void AddRow(const Variant& variant, const RealSet& set, const std::vector<StillR
                         FormatMedian(figures.ms, 1, "{:.2f}")});
 }
 
+constexpr int kMostPerHeight = 20;  // by hand: a night
+
+std::set<std::string> AskForParts(Parameters& parameters) {
+  return parameters.Some("parts", {"terms", "people", "starts", "shapes"});
+}
+
+int AskForFrames(Parameters& parameters) { return parameters.Integer("frames", 0); }
+
 std::vector<Table> FitTerms(ExperimentContext& context) {
   if (context.shared.empty()) throw InputError("fit: expected --shared FOLDER with real/ in it");
-  const auto sets = ReadRealSets(context.shared, context.parameters.Integer("frames", 0));
+  const auto sets = ReadRealSets(context.shared, AskForFrames(context.parameters));
   if (sets.empty()) {
     throw InputError(fmt::format("{}: expected real/depth_frames or real/itop_depth in it",
                                  context.shared.string()));
@@ -129,8 +137,21 @@ std::vector<Table> FitTerms(ExperimentContext& context) {
 
 }  // namespace
 
+FitSettings AskForFit(Parameters& parameters) {
+  return {parameters.Integer("people_per_height", 3, 1, kMostPerHeight),
+          parameters.Integer("start_people_per_height", 2, 1, kMostPerHeight),
+          parameters.Integer("shape_people_per_height", 1, 1, kMostPerHeight),
+          parameters.Flag("train_shapes", false)};
+}
+
+void AskFit(ExperimentContext& context) {
+  AskForParts(context.parameters);
+  AskForFrames(context.parameters);
+  AskForFit(context.parameters);
+}
+
 std::vector<Table> RunFit(ExperimentContext& context) {
-  const auto parts = context.parameters.Some("parts", {"terms", "people", "starts", "shapes"});
+  const auto parts = AskForParts(context.parameters);
   std::vector<Table> tables;
   const auto add = [&](const char* part, std::vector<Table> (*run)(ExperimentContext&)) {
     if (parts.count(part) == 0) return;

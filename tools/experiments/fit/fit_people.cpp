@@ -96,8 +96,8 @@ void AddJointErrors(const Trial& trial, const std::vector<Outcome>& outcomes, Ta
 }  // namespace
 
 std::vector<Table> FitPeople(ExperimentContext& context) {
-  const PeopleFilm film(context, context.parameters.Integer("people_per_height", 3, 1, 20),
-                        context.parameters.Flag("train_shapes", false));
+  const FitSettings settings = AskForFit(context.parameters);
+  const PeopleFilm film(context, settings.people_per_height, settings.train_shapes);
   const tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table stature{.title = "Stature of rendered people after 3 s",
                 .columns = {"what", "stature", "people", "off, median, cm", "mean, cm",

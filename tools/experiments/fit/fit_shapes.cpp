@@ -43,8 +43,8 @@ void AddRow(const Wrong& wrong, const std::vector<Outcome>& outcomes, Table& tab
 }  // namespace
 
 std::vector<Table> FitWrongShapes(ExperimentContext& context) {
-  const PeopleFilm film(context, context.parameters.Integer("shape_people_per_height", 1, 1, 20),
-                        context.parameters.Flag("train_shapes", false));
+  const FitSettings settings = AskForFit(context.parameters);
+  const PeopleFilm film(context, settings.shape_people_per_height, settings.train_shapes);
   const tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table table{.title = "Rendered people with a person file, their own and others'",
               .columns = {"file of", "people", "fitted joints off, cm", "final joints off, cm",

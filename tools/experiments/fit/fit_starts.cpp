@@ -181,8 +181,8 @@ void AddRows(const std::string& clothes, const std::vector<Still>& stills,
 }  // namespace
 
 std::vector<Table> FitStarts(ExperimentContext& context) {
-  const PeopleFilm film(context, context.parameters.Integer("start_people_per_height", 2, 1, 20),
-                        context.parameters.Flag("train_shapes", false));
+  const FitSettings settings = AskForFit(context.parameters);
+  const PeopleFilm film(context, settings.start_people_per_height, settings.train_shapes);
   tracker::TrackerOptions options = TrackerOptionsOf(context);
   options.keep_parts = true;
   Table table{

@@ -80,6 +80,16 @@ std::string PerCent(int part, int whole) {
   return whole == 0 ? "-" : fmt::format("{:.1f}", 100.0 * part / whole);
 }
 
+struct FirstFrameSettings {
+  std::vector<std::string> sources;
+  int images = 0;
+};
+
+FirstFrameSettings AskSettings(ExperimentContext& context) {
+  return {context.parameters.Motions("mocap"),
+          context.parameters.Integer("images", context.full ? 200 : 25, 1)};
+}
+
 }  // namespace
 
 FrameOptions FirstFrameOptions(const FirstFrameKind& kind, const FirstFramePlace& place,
@@ -94,9 +104,10 @@ FrameOptions FirstFrameOptions(const FirstFrameKind& kind, const FirstFramePlace
   return options;
 }
 
+void AskFirstFrames(ExperimentContext& context) { AskSettings(context); }
+
 std::vector<Table> RunFirstFrames(ExperimentContext& context) {
-  const auto sources = context.parameters.Texts("mocap", {"authored"});
-  const int images = context.parameters.Integer("images", context.full ? 200 : 25, 1);
+  const auto [sources, images] = AskSettings(context);
   tracker::TrackerOptions how;
   how.models = LoadModels(context, how.method);
   const auto clips = recon::LoadMocap(sources);

@@ -206,10 +206,7 @@ std::vector<LogisticExample> WithTerms(const std::vector<Example>& examples, siz
 }
 
 Table FitWeights(ExperimentContext& context, const WeightSet& set) {
-  const std::string train = context.parameters.Text("mocap", "authored");
-  const std::string check = context.parameters.Text("check_mocap", "authored");
-  const int performances = context.parameters.Integer("performances", context.full ? 60 : 8, 2);
-  const double prior = context.parameters.Number("prior", 1.0);
+  const auto [train, check, performances, images, prior] = AskForPersonClassifier(context);
   const uint64_t seed = context.seed * 1000000;
   const auto fitted = Examples(context, set, Split::kTrain, train, performances, seed);
   const auto checked =
@@ -236,6 +233,10 @@ Table FitWeights(ExperimentContext& context, const WeightSet& set) {
   return table;
 }
 
+std::set<std::string> AskForParts(Parameters& parameters) {
+  return parameters.Some("parts", {"forest", "ceiling", "pose"});
+}
+
 }  // namespace
 
 Table FitForestWeights(ExperimentContext& context) { return FitWeights(context, kLevel); }
@@ -243,8 +244,22 @@ Table FitForestWeightsFromAbove(ExperimentContext& context) {
   return FitWeights(context, kUnderCeiling);
 }
 
+PersonClassifierSettings AskForPersonClassifier(ExperimentContext& context) {
+  constexpr double kLeastPrior = 1e-9;  // by hand: weights need one, however weak
+  Parameters& asked = context.parameters;
+  return {asked.Motion("mocap", "authored"), asked.Motion("check_mocap", "authored"),
+          asked.Integer("performances", context.full ? 60 : 8, 2),
+          asked.Integer("images", context.full ? 300 : 150, 1),
+          asked.Number("prior", 1.0, kLeastPrior)};
+}
+
+void AskPersonClassifier(ExperimentContext& context) {
+  AskForParts(context.parameters);
+  AskForPersonClassifier(context);
+}
+
 std::vector<Table> RunPersonClassifier(ExperimentContext& context) {
-  const auto parts = context.parameters.Some("parts", {"forest", "ceiling", "pose"});
+  const auto parts = AskForParts(context.parameters);
   std::vector<Table> tables;
   if (parts.count("forest") > 0) tables.push_back(FitForestWeights(context));
   if (parts.count("ceiling") > 0) tables.push_back(FitForestWeightsFromAbove(context));

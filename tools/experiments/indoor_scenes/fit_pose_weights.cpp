@@ -82,10 +82,7 @@ std::vector<LogisticExample> Gather(const Cast& cast, ExperimentContext& context
 }  // namespace
 
 Table FitPoseWeights(ExperimentContext& context) {
-  const std::string train = context.parameters.Text("mocap", "authored");
-  const std::string check = context.parameters.Text("check_mocap", "authored");
-  const int images = context.parameters.Integer("images", context.full ? 300 : 150, 1);
-  const double prior = context.parameters.Number("prior", 1.0);
+  const PersonClassifierSettings settings = AskForPersonClassifier(context);
   const recon::BodyModel model = LoadFetchedBody();
   const auto forest = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
   const people::FeatureCollector collector(forest);
@@ -93,10 +90,11 @@ Table FitPoseWeights(ExperimentContext& context) {
   const auto gather = [&](const std::string& mocap, Split split, uint64_t seed) {
     auto poses = MakePoseBank(recon::LoadMocap({mocap}), MakeBankOptions(Poses::kNatural));
     if (poses.empty()) throw InputError(mocap + ": expected motion, found no frames");
-    return Gather({model, std::move(poses), collector, network, split, seed, images}, context);
+    return Gather({model, std::move(poses), collector, network, split, seed, settings.images},
+                  context);
   };
-  const auto fitted = gather(train, Split::kTrain, context.seed + 1);
-  const Eigen::VectorXd weights = FitLogistic(fitted, prior);
+  const auto fitted = gather(settings.train, Split::kTrain, context.seed + 1);
+  const Eigen::VectorXd weights = FitLogistic(fitted, settings.prior);
   AtomicFile file(context.out / "pose_weights.inc");
   file.stream() << "// Written by `ossa experiment person-classifier`.\n"
                 << ArrayText("kPoseWeights", weights);
@@ -106,7 +104,7 @@ Table FitPoseWeights(ExperimentContext& context) {
               .rows = {},
               .note = "Weights: pose_weights.inc, to be put into tools/people."};
   AddPassedRows("fitted on", weights, fitted, table);
-  AddPassedRows("others", weights, gather(check, Split::kTest, context.seed), table);
+  AddPassedRows("others", weights, gather(settings.check, Split::kTest, context.seed), table);
   return table;
 }
 

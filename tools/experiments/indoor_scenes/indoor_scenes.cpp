@@ -132,47 +132,68 @@ void AddJitterRows(const IndoorScore& s, Table& jitter) {
   jitter.rows.push_back({"final, default smoothing", Cell(Jitter_mm(s.final), 1, 1), "5"});
 }
 
-Split MakeSplit(ExperimentContext& context) {
-  const std::string name = context.parameters.Text("split", "test");
-  const auto split = SplitFromName(name);
-  if (!split) throw InputError("split = " + name + ": expected train or test");
-  return *split;
+constexpr int kWidestImage = 4096;  // pixels, by hand: wider than any depth camera's
+
+struct SceneSettings {
+  std::vector<std::string> sources;
+  int performances = 0, frames = 0, width = 0, pictures_every = 0;
+  std::string only;  // part of a scenario's name
+  Split split = Split::kTest;
+  std::string method;
+  bool physics = true;
+};
+
+SceneSettings AskSettings(ExperimentContext& context) {
+  Parameters& asked = context.parameters;
+  SceneSettings settings;
+  settings.sources = asked.Motions("mocap");
+  settings.performances = asked.Integer("performances", context.full ? 6 : 2, 1);
+  settings.frames = asked.Integer("frames", context.full ? 150 : 90, 2);
+  settings.width = asked.Integer("width", 640, 160, kWidestImage);
+  settings.pictures_every = asked.Integer("pictures_every", 0);
+  settings.only = asked.Text("only", "");
+  settings.split = *SplitFromName(asked.OneOf("split", {"train", "test"}, "test"));
+  settings.method =
+      asked.OneOf("method", recon::ReconstructionMethods(), tracker::TrackerOptions().method);
+  settings.physics = asked.Flag("physics", true);
+  return settings;
 }
 
-tracker::TrackerOptions MakeTrackerOptions(ExperimentContext& context) {
+tracker::TrackerOptions MakeTrackerOptions(const ExperimentContext& context,
+                                           const SceneSettings& settings) {
   tracker::TrackerOptions how;
-  how.method = context.parameters.Text("method", how.method);
+  how.method = settings.method;
   how.models = LoadModels(context, how.method);
-  how.physics = context.parameters.Flag("physics", true);
+  how.physics = settings.physics;
+  how.keep_parts = settings.pictures_every > 0;
   return how;
 }
 
 }  // namespace
 
+void AskIndoorScenes(ExperimentContext& context) { AskSettings(context); }
+
 std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
-  const auto sources = context.parameters.Texts("mocap", {"authored"});
-  const int performances = context.parameters.Integer("performances", context.full ? 6 : 2, 1);
-  const int frames = context.parameters.Integer("frames", context.full ? 150 : 90, 2);
-  const int width = context.parameters.Integer("width", 640, 160);
-  const int pictures_every = context.parameters.Integer("pictures_every", 0);
-  const std::string only = context.parameters.Text("only", "");
-  tracker::TrackerOptions how = MakeTrackerOptions(context);
-  how.keep_parts = pictures_every > 0;
-  const Split split = MakeSplit(context);
-  const auto clips = recon::LoadMocap(sources);
+  const SceneSettings settings = AskSettings(context);
+  const tracker::TrackerOptions how = MakeTrackerOptions(context, settings);
+  const auto clips = recon::LoadMocap(settings.sources);
   const auto model = LoadFetchedBody();
   const recon::Wardrobe wardrobe(model);
-  const IndoorCast cast{model, wardrobe, clips, split, width, width * 3 / 4, frames};
+  const int width = settings.width;
+  const IndoorCast cast{model, wardrobe,      clips,          settings.split,
+                        width, width * 3 / 4, settings.frames};
 
   const auto scenarios = IndoorScenarios();
   std::vector<Job> jobs;
   for (size_t s = 0; s < scenarios.size(); ++s) {
-    if (scenarios[s].name.find(only) == std::string::npos) continue;
-    for (int k = 0; k < performances; ++k)
-      jobs.push_back({s, context.seed * 1000 + s * 50 + static_cast<uint64_t>(k), pictures_every});
+    if (scenarios[s].name.find(settings.only) == std::string::npos) continue;
+    for (int k = 0; k < settings.performances; ++k) {
+      jobs.push_back(
+          {s, context.seed * 1000 + s * 50 + static_cast<uint64_t>(k), settings.pictures_every});
+    }
   }
   if (jobs.empty())
-    throw InputError(fmt::format("indoor-scenes: no scenario has '{}' in its name", only));
+    throw InputError(fmt::format("indoor-scenes: no scenario has '{}' in its name", settings.only));
   const auto scores = PlayAll(jobs, scenarios, cast, how, context);
 
   Table where = WhereTable(), joints = JointsTable(), jitter = JitterTable();

@@ -11,6 +11,14 @@ namespace ossa::tools {
 
 // What `ossa experiment person-classifier` fits, and how.
 
+struct PersonClassifierSettings {
+  std::string train, check;  // motion
+  int performances = 0;      // of which the forest's weights are fitted
+  int images = 0;            // of which the pose network's are
+  double prior = 0.0;        // FitLogistic()
+};
+PersonClassifierSettings AskForPersonClassifier(ExperimentContext& context);
+
 /// How much of a piece of the image is of the one person that it shows most of, and how much of
 /// that person it is: [0, 1].
 struct PixelShares {

@@ -174,11 +174,18 @@ uint64_t BodyOf(const std::string& mover, std::map<std::string, uint64_t>* bodie
 
 }  // namespace
 
+Liu2016Settings AskForLiu2016(ExperimentContext& context) {
+  Liu2016Settings settings;
+  settings.observer = AskForObserver(context.parameters);
+  settings.movers = context.parameters.Integer("movers", context.full ? 5 : 3, 2);
+  settings.frames = context.parameters.Integer("frames", context.full ? 240 : 120, 2);
+  settings.folds =
+      context.parameters.Integer("folds", context.full ? settings.movers : 1, 1, settings.movers);
+  return settings;
+}
+
 Liu2016Study::Liu2016Study(ExperimentContext& context) {
-  const std::string observer = context.parameters.Text("observer", "forest");
-  const int movers = context.parameters.Integer("movers", context.full ? 5 : 3, 2);
-  const int frames = context.parameters.Integer("frames", context.full ? 240 : 120, 2);
-  const int tested = context.parameters.Integer("folds", context.full ? movers : 1, 1);
+  const auto [observer, movers, frames, tested] = AskForLiu2016(context);
   note = ObserverNote(observer) +
          fmt::format(
              "Motions: ossa's authored actions by {} movers, {} frames each, {} of them "
@@ -246,6 +253,11 @@ std::optional<double> MeasureError(const ExperimentContext& context, const Liu20
     }
   }
   return MeanOverClips(method, clips).mean_joint_error_cm;
+}
+
+void AskLiu2016(ExperimentContext& context) {
+  AskForLiu2016(context);
+  AskForPrior(context.parameters);
 }
 
 std::vector<Table> RunLiu2016(ExperimentContext& context) {

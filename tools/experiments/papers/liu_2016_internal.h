@@ -3,6 +3,13 @@
 
 namespace ossa::tools {
 
+struct Liu2016Settings {
+  std::string observer;
+  int movers = 0, frames = 0;
+  int folds = 0;  // movers that are tested
+};
+Liu2016Settings AskForLiu2016(ExperimentContext& context);
+
 /// The recordings of `ossa experiment liu-2016`: clips are named "ACTION/MOVER", the subject is the
 /// mover, folds leave one mover out.
 struct Liu2016Study {

@@ -70,10 +70,14 @@ PairedTracks WhereSeen(const RecordedPair& scenario, const PairedTracks& pair) {
   return seen;
 }
 
+int AskForFrames(ExperimentContext& context) {
+  return context.parameters.Integer("frames", context.full ? 600 : 120, 2);
+}
+
 Study Prepare(ExperimentContext& context) {
   Study study;
-  const std::string observer = context.parameters.Text("observer", "forest");
-  const int frames = context.parameters.Integer("frames", context.full ? 600 : 120, 2);
+  const std::string observer = AskForObserver(context.parameters);
+  const int frames = AskForFrames(context);
   const auto motions = TenPerformances(context, frames);
   study.note = ObserverNote(observer) + motions.note;
   Studio studio(context, observer);
@@ -221,6 +225,14 @@ void DrawCumulative(const ExperimentContext& context, const Study& study) {
 }
 
 }  // namespace
+
+void AskPlantard2016(ExperimentContext& context) {
+  AskForObserver(context.parameters);
+  AskForFrames(context);
+  AskForMotions(context);
+  AskForDatabaseMotion(context.parameters);
+  AskForPrior(context.parameters);
+}
 
 std::vector<Table> RunPlantard2016(ExperimentContext& context) {
   const Study study = Prepare(context);

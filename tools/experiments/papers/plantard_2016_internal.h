@@ -22,8 +22,11 @@ Table MakePlantard2016FigureEight(const std::vector<std::string>& labels,
 Table MakePlantard2016Tests(const std::vector<std::string>& labels,
                             const std::vector<std::vector<ClipMetrics>>& clips);
 
+/// The parameter `database_mocap`: what the database was made of.
+std::string AskForDatabaseMotion(Parameters& parameters);
+
 /// Figure 9: `method` (plantard-2016) over the hard scenarios, one parameter of the graph changed
-/// at a time. Parameter `database_mocap`: what the database was made of.
+/// at a time.
 Table MakePlantard2016FigureNine(ExperimentContext& context, const MethodRun& method,
                                  const std::vector<RecordedPair>& hard);
 

@@ -12,7 +12,7 @@ namespace {
 /// The clips that the database is of. A graph of its nodes alone would lack what the filter left
 /// out: its connections would be steps over what is missing.
 std::vector<recon::PostureClip> LoadDatabaseClips(ExperimentContext& context) {
-  const std::string mocap = context.parameters.Text("database_mocap", "authored");
+  const std::string mocap = AskForDatabaseMotion(context.parameters);
   std::vector<recon::PostureClip> clips;
   for (const recon::MotionClip& clip : recon::LoadMocap({mocap}, {})) {
     recon::PostureClip& made = clips.emplace_back();
@@ -25,6 +25,10 @@ std::vector<recon::PostureClip> LoadDatabaseClips(ExperimentContext& context) {
 }
 
 }  // namespace
+
+std::string AskForDatabaseMotion(Parameters& parameters) {
+  return parameters.Motion("database_mocap", "authored");
+}
 
 Table MakePlantard2016FigureNine(ExperimentContext& context, const MethodRun& method,
                                  const std::vector<RecordedPair>& hard) {

@@ -28,6 +28,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct ShottonSettings {
+  std::string motion, test_motion;
+  int pixels = 0, candidates = 0;
+  int validation_images = 0;  // of them proposals are learned
+  int test_images = 0;
+  std::vector<int> images, depths;  // each with each is trained
+  int trees = 0;
+};
+
+ShottonSettings AskSettings(ExperimentContext& context) {
+  Parameters& asked = context.parameters;
+  const bool full = context.full;
+  // By definition of `ossa train`: as many as it takes.
+  constexpr int kMostTrees = 16, kMostDepth = 24, kMostPixels = 100'000, kMostCandidates = 100'000;
+  constexpr int kLeastImages = 100;  // by definition: the last ten of each are kept for proposals
+  ShottonSettings settings;
+  settings.motion = asked.Motion("motion", "authored");
+  settings.test_motion = asked.Motion("test_motion", settings.motion);
+  settings.pixels = asked.Integer("pixels", full ? 300 : 150, 1, kMostPixels);
+  settings.candidates = asked.Integer("candidates", full ? 500 : 150, 1, kMostCandidates);
+  settings.validation_images = asked.Integer("validation_images", full ? 400 : 60, 1);
+  settings.test_images = asked.Integer("test_images", full ? 1000 : 150, 1);
+  settings.images = asked.Integers(
+      "images",
+      full ? std::vector<int>{300, 1000, 3000, 10000, 30000} : std::vector<int>{100, 1000},
+      kLeastImages);
+  settings.depths = asked.Integers(
+      "depths", full ? std::vector<int>{5, 8, 12, 16, 20} : std::vector<int>{5, 10, 15}, 1,
+      kMostDepth);
+  settings.trees = asked.Integer("trees", full ? 3 : 1, 1, kMostTrees);
+  return settings;
+}
+
 struct Setting {
   int64_t images = 0;
   int depth = 0;
@@ -36,38 +69,26 @@ struct Setting {
 
 class Laboratory {
  public:
-  explicit Laboratory(ExperimentContext& context)
-      : context_(context),
-        motion_(context.parameters.Text("motion", "authored")),
-        test_motion_(context.parameters.Text("test_motion", motion_)),
-        pixels_(context.parameters.Integer("pixels", context.full ? 300 : 150, 1)),
-        candidates_(context.parameters.Integer("candidates", context.full ? 500 : 150, 1)),
-        validation_images_(
-            context.parameters.Integer("validation_images", context.full ? 400 : 60, 1)) {}
+  Laboratory(ExperimentContext& context, ShottonSettings settings)
+      : context_(context), settings_(std::move(settings)) {}
 
   // A data set of this study; finished ones are kept.
   fs::path RenderData(Split split, int64_t frames);
   // Train and measure; cached.
   Evaluation Judge(const Setting& setting, int64_t test_frames);
   Evaluation JudgeShipped(int64_t test_frames);
-  const std::string& test_motion() const { return test_motion_; }
-  bool TestsOnItsOwnMotion() const { return test_motion_ == motion_; }
 
  private:
   Evaluation Measured(const std::string& key, const std::function<forest::ForestModel()>& model,
                       int64_t test_frames);
 
   ExperimentContext& context_;
-  std::string motion_;
-  std::string test_motion_;
-  int pixels_;
-  int candidates_;
-  int validation_images_;  // of them proposals are learned
+  ShottonSettings settings_;
 };
 
 fs::path Laboratory::RenderData(Split split, int64_t frames) {
   const bool test = split == Split::kTest;
-  const std::string& motion = test ? test_motion_ : motion_;
+  const std::string& motion = test ? settings_.test_motion : settings_.motion;
   RenderJob job;
   job.command = fmt::format("ossa experiment shotton-2011 {} {} {} seed {}",
                             test ? "test" : "train", motion, frames, context_.seed);
@@ -134,9 +155,10 @@ Evaluation Laboratory::Measured(const std::string& key,
 }
 
 Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
-  const std::string key = fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", ComputeCodeKey(),
-                                      motion_, setting.images, setting.depth, setting.trees,
-                                      pixels_, candidates_, validation_images_, context_.seed);
+  const std::string key =
+      fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", ComputeCodeKey(), settings_.motion,
+                  setting.images, setting.depth, setting.trees, settings_.pixels,
+                  settings_.candidates, settings_.validation_images, context_.seed);
   return Measured(
       key,
       [&] {
@@ -145,8 +167,8 @@ Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
         forest::TrainOptions options;
         options.trees = setting.trees;
         options.depth = setting.depth;
-        options.pixels = pixels_;
-        options.candidates = candidates_;
+        options.pixels = settings_.pixels;
+        options.candidates = settings_.candidates;
         options.thresholds = 20;
         options.seed = context_.seed;
         options.threads = context_.threads;
@@ -161,7 +183,8 @@ Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
         const PersonSource train({data}, {0, 90});
         const PersonSource validation({data}, {90, 100});
         return forest::LearnProposals(forest::Train(train, BodyVocabulary(), options), validation,
-                                      static_cast<size_t>(validation_images_), context_.threads);
+                                      static_cast<size_t>(settings_.validation_images),
+                                      context_.threads);
       },
       test_frames);
 }
@@ -226,24 +249,20 @@ std::string Percent(double share) { return std::isnan(share) ? "-" : Cell(100 * 
 
 }  // namespace
 
+void AskShotton2011(ExperimentContext& context) { AskSettings(context); }
+
 std::vector<Table> RunShotton2011(ExperimentContext& context) {
-  Laboratory laboratory(context);
-  const int64_t tests = context.parameters.Integer("test_images", context.full ? 1000 : 150, 1);
-  const auto images = context.parameters.Numbers(
-      "images", context.full ? std::vector<double>{300, 1000, 3000, 10000, 30000}
-                             : std::vector<double>{100, 1000});
-  const auto depths =
-      context.parameters.Numbers("depths", context.full ? std::vector<double>{5, 8, 12, 16, 20}
-                                                        : std::vector<double>{5, 10, 15});
-  const int trees = context.parameters.Integer("trees", context.full ? 3 : 1, 1);
+  const ShottonSettings settings = AskSettings(context);
+  Laboratory laboratory(context, settings);
+  const int64_t tests = settings.test_images;
   Table table;
   table.title = "Figure 6: accuracy against training images and depth";
   table.columns = {"images",          "depth",        "mean class accuracy, %",
                    "pixels right, %", "mAP 10 cm, %", "mAP 10 cm, visible, %"};
   Curves accuracy;
-  for (const double count : images) {
-    for (const double depth : depths) {
-      const Setting setting{static_cast<int64_t>(count), static_cast<int>(depth), trees};
+  for (const int count : settings.images) {
+    for (const int depth : settings.depths) {
+      const Setting setting{count, depth, settings.trees};
       const Evaluation e = laboratory.Judge(setting, tests);
       accuracy[count][depth] = e.mean_class_accuracy;
       table.rows.push_back({fmt::format("{}", setting.images), fmt::format("{}", setting.depth),
@@ -255,7 +274,7 @@ std::vector<Table> RunShotton2011(ExperimentContext& context) {
   table.note =
       "MPFB bodies of test shapes, front views at 320 x 240, structured-light noise; far fewer "
       "images than the paper's.";
-  if (laboratory.TestsOnItsOwnMotion()) {
+  if (settings.test_motion == settings.motion) {
     table.note +=
         " Tested on the motions it was trained on, by other bodies (of authored ones by other "
         "movers): for unseen motion name folders of subjects kept apart as motion and "
@@ -269,7 +288,7 @@ std::vector<Table> RunShotton2011(ExperimentContext& context) {
     joints.rows.push_back({std::string(recon::kJointNames[j]), Percent(shipped.ap_10cm.at(j)),
                            Percent(shipped.ap_10cm_visible.at(j))});
   }
-  if (laboratory.test_motion() == "authored") {
+  if (settings.test_motion == "authored") {
     joints.note = "Authored motions are among those that the shipped model was trained on.";
   }
   joints.rows.push_back({"mean", Percent(shipped.map_10cm), Percent(shipped.map_10cm_visible)});

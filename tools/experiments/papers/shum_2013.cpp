@@ -265,11 +265,27 @@ void AddCoverage(const ExperimentContext& context, std::vector<Table>& tables) {
   tables.push_back(CoverageTable(*LoadDatabase(context).postures, some));
 }
 
+std::set<std::string> AskForParts(Parameters& parameters) {
+  return parameters.Some("parts", {"data", "table-3", "table-4", "tilt", "ablations"});
+}
+
 }  // namespace
 
+Shum2013Settings AskForShum2013(ExperimentContext& context) {
+  return {AskForObserver(context.parameters),
+          context.parameters.Integer("clips", context.full ? 8 : 2, 1),
+          context.parameters.Integer("frames", context.full ? 450 : 150, 2)};
+}
+
+void AskShum2013(ExperimentContext& context) {
+  AskForParts(context.parameters);
+  AskForShum2013(context);
+  AskForMotions(context);
+  AskForPrior(context.parameters);
+}
+
 std::vector<Table> RunShum2013(ExperimentContext& context) {
-  const auto parts =
-      context.parameters.Some("parts", {"data", "table-3", "table-4", "tilt", "ablations"});
+  const auto parts = AskForParts(context.parameters);
   const bool occluded = parts.contains("table-4") || parts.contains("ablations");
   Shum2013Study study(context, occluded);
   std::vector<Table> tables;
@@ -294,9 +310,7 @@ std::vector<Table> RunShum2013(ExperimentContext& context) {
 }
 
 Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
-  const std::string observer = context.parameters.Text("observer", "forest");
-  const int clips = context.parameters.Integer("clips", context.full ? 8 : 2, 1);
-  const int frames = context.parameters.Integer("frames", context.full ? 450 : 150, 2);
+  const auto [observer, clips, frames] = AskForShum2013(context);
   const auto motions = StudyMotions(context, static_cast<size_t>(clips), frames);
   Studio studio(context, observer);
   note = ObserverNote(observer) + motions.note;

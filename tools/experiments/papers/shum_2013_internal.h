@@ -4,6 +4,12 @@
 
 namespace ossa::tools {
 
+struct Shum2013Settings {
+  std::string observer;
+  int clips = 0, frames = 0;
+};
+Shum2013Settings AskForShum2013(ExperimentContext& context);
+
 /// The recordings and methods of `ossa experiment shum-2013`.
 struct Shum2013Study {
   /// `occluded`: performances behind furniture and with held things are wanted, too.

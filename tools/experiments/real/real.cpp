@@ -256,14 +256,27 @@ void WriteJson(const ExperimentContext& context, const json& report) {
   file.Commit();
 }
 
-tracker::TrackerOptions MakeOptions(ExperimentContext& context) {
+struct RealSettings {
+  int frames = 0;  // of each set and recording at most; 0: all
+  std::string pose_network;
+  int lag = 0;
+  bool fit = true;
+};
+
+RealSettings AskSettings(Parameters& parameters) {
+  return {parameters.Integer("frames", 0), parameters.Text("pose_network", ""),
+          parameters.Integer("lag", 0, 0, 2), parameters.Flag("fit", true)};
+}
+
+tracker::TrackerOptions MakeOptions(const ExperimentContext& context,
+                                    const RealSettings& settings) {
   tracker::TrackerOptions options;
   options.models = LoadModels(context, options.method);
-  const std::string network = context.parameters.Text("pose_network", "");
+  const std::string& network = settings.pose_network;
   if (!network.empty()) options.models->pose_network = tracker::LoadPoseNetwork(network);
   options.threads = context.threads;
-  options.lag = context.parameters.Integer("lag", 0, 0, 2);
-  if (!context.parameters.Flag("fit", true)) options.fit.reset();
+  options.lag = settings.lag;
+  if (!settings.fit) options.fit.reset();
   return options;
 }
 
@@ -337,12 +350,14 @@ class RealReport {
 
 }  // namespace
 
+void AskReal(ExperimentContext& context) { AskSettings(context.parameters); }
+
 std::vector<Table> RunReal(ExperimentContext& context) {
   if (context.shared.empty()) throw InputError("real: expected --shared FOLDER with real/ in it");
-  const int most = context.parameters.Integer("frames", 0);
-  tracker::Tracker tracker(MakeOptions(context));
-  const auto sets = ReadRealSets(context.shared, most);
-  const auto videos = ReadRealVideos(context.shared, most);
+  const RealSettings settings = AskSettings(context.parameters);
+  tracker::Tracker tracker(MakeOptions(context, settings));
+  const auto sets = ReadRealSets(context.shared, settings.frames);
+  const auto videos = ReadRealVideos(context.shared, settings.frames);
   if (sets.empty() && videos.empty()) {
     throw InputError(
         fmt::format("{}: expected real/depth_frames, real/itop_depth, "

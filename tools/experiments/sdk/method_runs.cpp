@@ -58,9 +58,10 @@ OpenDatabase LoadDatabase(const ExperimentContext& context) {
   return database;
 }
 
+bool AskForPrior(Parameters& parameters) { return parameters.Integer("best_prior", 1, 0, 1) != 0; }
+
 std::shared_ptr<const recon::PosturePrior> LoadPrior(ExperimentContext& context) {
-  const bool wanted = context.parameters.Integer("best_prior", 1) != 0;
-  if (!wanted || !context.database.empty()) return nullptr;
+  if (!AskForPrior(context.parameters) || !context.database.empty()) return nullptr;
   static const auto kShipped = std::make_shared<const recon::PosturePrior>(
       recon::PosturePrior::Load(tracker::ShippedFile(recon::kShippedPrior)));
   return kShipped;

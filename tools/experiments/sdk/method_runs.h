@@ -19,6 +19,8 @@ struct OpenDatabase {
 };
 /// --database of the study, else the shipped one.
 OpenDatabase LoadDatabase(const ExperimentContext& context);
+/// The parameter `best_prior`.
+bool AskForPrior(Parameters& parameters);
 /// What best completes postures by: the shipped prior, or nothing where the study names a database
 /// or says best_prior = 0, so that it is the database's postures.
 std::shared_ptr<const recon::PosturePrior> LoadPrior(ExperimentContext& context);

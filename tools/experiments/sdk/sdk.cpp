@@ -93,12 +93,13 @@ std::vector<std::string> ChosenData(ExperimentContext& context) {
                                fmt::join(kRecordings, ", "), fmt::join(chosen, ", ")));
 }
 
-recon::ReconstructorOptions MakeMethodOptions(ExperimentContext& context) {
+/// The options but for what is read from files.
+recon::ReconstructorOptions AskForMethodOptions(ExperimentContext& context) {
   recon::ReconstructorOptions options;
   options.seed = context.seed;
-  options.database = LoadDatabase(context).postures;
-  options.prior = LoadPrior(context);
-  const auto is_on = [&](const char* stage) { return context.parameters.Integer(stage, 1) != 0; };
+  const auto is_on = [&](const char* stage) {
+    return context.parameters.Integer(stage, 1, 0, 1) != 0;
+  };
   options.best.repair = is_on("best_repair");
   options.best.complete = is_on("best_complete");
   options.best.correct = is_on("best_correct");
@@ -108,16 +109,28 @@ recon::ReconstructorOptions MakeMethodOptions(ExperimentContext& context) {
   return options;
 }
 
+recon::ReconstructorOptions MakeMethodOptions(ExperimentContext& context) {
+  recon::ReconstructorOptions options = AskForMethodOptions(context);
+  options.database = LoadDatabase(context).postures;
+  options.prior = LoadPrior(context);
+  return options;
+}
+
+size_t AskForEveryNthClip(ExperimentContext& context) {
+  return static_cast<size_t>(context.parameters.Integer("every_nth_clip", 1, 1));
+}
+
 class SdkStudy {
  public:
   explicit SdkStudy(ExperimentContext& context)
       : context_(context),
         methods_(ChosenMethods(context)),
         data_(ChosenData(context)),
-        every_(static_cast<size_t>(context.parameters.Integer("every_nth_clip", 1, 1))),
+        every_(AskForEveryNthClip(context)),
         options_(MakeMethodOptions(context)) {}
 
   std::vector<Table> Run() {
+    ExpectRecordings();
     if (Wants("correct") || Wants("incorrect")) RunUiPrmd();
     if (Wants("itop")) RunItop();
     if (Wants("linear-bound")) studies_.push_back(std::move(linear_bound_));
@@ -129,6 +142,17 @@ class SdkStudy {
   }
 
  private:
+  // The last of them are read after hours.
+  void ExpectRecordings() const {
+    std::vector<RecordingSet> wanted;
+    if (Wants("correct") || Wants("incorrect")) wanted.push_back(RecordingSet::kUiPrmd);
+    if (Wants("itop")) wanted.push_back(RecordingSet::kItop);
+    if (Wants("failures")) {
+      wanted.insert(wanted.end(), {RecordingSet::kWithoutTruth, RecordingSet::kKeraal});
+    }
+    tools::ExpectRecordings(context_.shared, wanted);
+  }
+
   bool Wants(const char* name) const {
     return std::find(data_.begin(), data_.end(), name) != data_.end();
   }
@@ -189,6 +213,15 @@ class SdkStudy {
 };
 
 }  // namespace
+
+void AskSdk(ExperimentContext& context) {
+  ChosenMethods(context);
+  ChosenData(context);
+  AskForEveryNthClip(context);
+  AskForLagClips(context);
+  AskForMethodOptions(context);
+  AskForPrior(context.parameters);
+}
 
 std::vector<Table> RunSdk(ExperimentContext& context) { return SdkStudy(context).Run(); }
 

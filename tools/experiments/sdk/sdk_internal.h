@@ -97,6 +97,9 @@ Fold WithoutBoth(const Fold& a, const Fold& b);
 Table RunNested(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
                 const recon::ReconstructorOptions& options, Table* methods);
 
+/// The parameter `lag_every_nth_clip`: of RunLag().
+size_t AskForLagClips(ExperimentContext& context);
+
 /// sdk_lag.cpp: `best` with frames of lag, the low pass with its best cut-off, widths chosen
 /// without the person tested. Of a long study all widths, too.
 Table RunLag(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,

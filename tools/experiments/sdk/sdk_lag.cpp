@@ -239,9 +239,13 @@ std::vector<std::string> RowOf(const std::string& name, const Left& left, double
 
 }  // namespace
 
+size_t AskForLagClips(ExperimentContext& context) {
+  return static_cast<size_t>(context.parameters.Integer("lag_every_nth_clip", 5, 1));
+}
+
 Table RunLag(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
              const recon::ReconstructorOptions& options) {
-  const auto every = static_cast<size_t>(context.parameters.Integer("lag_every_nth_clip", 5, 1));
+  const size_t every = AskForLagClips(context);
   const std::vector<Family> families = Families();
   std::vector<Smoothing> smoothings;
   for (const Family& family : families) {

@@ -157,10 +157,14 @@ Table OtherSensors(ExperimentContext& context, int64_t frames) {
   return table;
 }
 
+int AskForFrames(Parameters& parameters) { return parameters.Integer("frames", 24, 2, 10'000); }
+
 }  // namespace
 
+void AskSensor(ExperimentContext& context) { AskForFrames(context.parameters); }
+
 std::vector<Table> RunSensor(ExperimentContext& context) {
-  const int frames = context.parameters.Integer("frames", 24, 2, 10'000);
+  const int frames = AskForFrames(context.parameters);
   if (context.shared.empty()) {
     throw InputError("experiment sensor: expected --shared FOLDER with real/depth_frames");
   }

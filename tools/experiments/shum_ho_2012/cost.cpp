@@ -171,7 +171,7 @@ Table CostStudy(ExperimentContext& context, const Actors& actors) {
         one.median_ms <= 0.6);
     row(fmt::format("six people, {}", name), text(six), "<= 4 ms", six.median_ms <= 4.0);
   }
-  const double hours = context.parameters.Number("endurance_hours", 0.1);
+  const double hours = AskForShumHo(context.parameters).endurance_hours;
   const double start_ms = ProcessorTime_ms();
   const Endurance e = Endure(actors, hours, context);
   row(fmt::format("{:g} hours of clips, pushes, bad and dropped frames: not finite", hours),

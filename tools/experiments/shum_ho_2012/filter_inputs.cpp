@@ -112,8 +112,9 @@ FilterData InRuns(const FilterData& whole) {
 /// The raw joints of ossa's forest on rendered depth images, without and with furniture.
 FilterData Rendered(ExperimentContext& context, std::string& note) {
   constexpr size_t kScenes = 6;
-  const int frames = context.parameters.Integer("rendered_frames", 150, 2);
-  const std::string observer = context.parameters.Text("observer", "forest");
+  const ShumHoSettings settings = AskForShumHo(context.parameters);
+  const int frames = settings.rendered_frames;
+  const std::string& observer = settings.observer;
   const StudyMotion motions = StudyMotions(context, kScenes, frames);
   Studio studio(context, observer);
   std::vector<RecordedPair> recorded;
@@ -133,8 +134,8 @@ FilterData Rendered(ExperimentContext& context, std::string& note) {
 
 std::vector<FilterData> MakeFilterData(ExperimentContext& context, const Actors& actors,
                                        std::string& note) {
-  const double stride = std::max(1.0, context.parameters.Number("filter_stride", 16));
-  const bool rendered = context.parameters.Flag("rendered", true);
+  const ShumHoSettings settings = AskForShumHo(context.parameters);
+  const double stride = settings.filter_stride;
   std::vector<FilterData> all;
   for (const double sigma_cm : {0.0, 1.0, 3.0}) {
     all.push_back(Authored(actors, sigma_cm, context.seed));
@@ -153,7 +154,7 @@ std::vector<FilterData> MakeFilterData(ExperimentContext& context, const Actors&
         "are no joint centres (5-18 cm off). Real recordings have no floor.",
         stride);
   }
-  if (rendered) all.push_back(Rendered(context, note));
+  if (settings.rendered) all.push_back(Rendered(context, note));
   return all;
 }
 

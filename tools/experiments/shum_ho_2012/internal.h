@@ -79,6 +79,17 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed);
 void AddCommonNumbers(const Stage& stage, SceneResult& result);
 std::string Text(double value, int digits, const std::string& unit);
 
+/// What the studies below are told, beside what rendered scenes are of (AskForMotions()).
+struct ShumHoSettings {
+  bool rendered = true;  // the filter on rendered scenes, too
+  int rendered_frames = 0;
+  std::string observer;
+  double filter_stride = 0.0;         // every which performance of UI-PRMD is filtered
+  double endurance_hours = 0.0;       // of simulated time
+  double database_threshold_m = 0.0;  // recon::DatabaseOptions::threshold_m
+};
+ShumHoSettings AskForShumHo(Parameters& parameters);
+
 /// The character as a filter on noisy authored motion and, when there, on real recordings.
 Table FilterStudy(ExperimentContext& context, const Actors& actors);
 /// What a frame costs: one person, six, one among many boxes.

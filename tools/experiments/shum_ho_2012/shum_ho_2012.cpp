@@ -8,8 +8,11 @@
 #include <set>
 
 #include "depth/base/error.h"
+#include "tools/experiments/compare/recordings.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/shum_ho_2012/internal.h"
+#include "tools/experiments/stage/motions.h"
+#include "tools/experiments/stage/staged.h"
 
 namespace ossa::tools {
 namespace {
@@ -34,6 +37,10 @@ constexpr std::array<Scene, 6> kScenes = {{
 
 constexpr int kPictureMs = 67;  // every second 30 Hz frame
 constexpr int kStripPictures = 6;
+
+// Of parameters, by hand: a month; what tells postures apart at all.
+constexpr double kMost_hours = 720.0;  // hours
+constexpr double kLeastThreshold_m = 0.01, kMostThreshold_m = 10.0;
 
 /// What the parameter `parts` asks for; all of it by default.
 std::set<std::string> Parts(Parameters& parameters) {
@@ -69,8 +76,30 @@ Table SceneTable() {
 
 }  // namespace
 
+ShumHoSettings AskForShumHo(Parameters& parameters) {
+  ShumHoSettings settings;
+  settings.rendered = parameters.Flag("rendered", true);
+  settings.rendered_frames = parameters.Integer("rendered_frames", 150, 2);
+  settings.observer = AskForObserver(parameters);
+  settings.filter_stride = parameters.Number("filter_stride", 16, 1);
+  settings.endurance_hours = parameters.Number("endurance_hours", 0.1, 0, kMost_hours);
+  settings.database_threshold_m =
+      parameters.Number("database_threshold_m", 0.5, kLeastThreshold_m, kMostThreshold_m);
+  return settings;
+}
+
+void AskShumHo2012(ExperimentContext& context) {
+  Parts(context.parameters);
+  AskForShumHo(context.parameters);
+  AskForMotions(context);
+}
+
 std::vector<Table> RunShumHo2012(ExperimentContext& context) {
   const std::set<std::string> parts = Parts(context.parameters);
+  if (parts.contains("filter") && !context.shared.empty()) {
+    ExpectRecordings(context.shared,
+                     {RecordingSet::kUiPrmd, RecordingSet::kKeraal, RecordingSet::kItop});
+  }
   const Actors actors(context.seed);
   double done = 0.0;
   const auto begin = [&](const std::string& part) {

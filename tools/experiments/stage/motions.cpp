@@ -44,10 +44,6 @@ std::vector<recon::MotionClip> Spread(std::vector<recon::MotionClip> clips, size
   return chosen;
 }
 
-}  // namespace
-
-namespace {
-
 /// The named clips of a folder, those that last.
 std::vector<recon::MotionClip> Named(const std::filesystem::path& folder,
                                      const std::vector<std::string>& names,
@@ -67,6 +63,11 @@ std::vector<recon::MotionClip> Named(const std::filesystem::path& folder,
 
 }  // namespace
 
+void AskForMotions(ExperimentContext& context) {
+  context.parameters.Motion("motion", "");
+  context.parameters.Texts("only", {});
+}
+
 StudyMotion TenPerformances(ExperimentContext& context, int frames) {
   const auto mocap = context.shared / "mocap";
   recon::MocapOptions options;
@@ -74,7 +75,8 @@ StudyMotion TenPerformances(ExperimentContext& context, int frames) {
   options.mapping_file = (mocap / "bandai_validation" / "mapping.txt").string();
   auto others = Named(mocap / "bandai_validation", kOfBandai, options, frames);
   const bool has_all = of_cmu.size() == kOfCmu.size() && others.size() == kOfBandai.size();
-  const bool other_asked = !context.parameters.Text("motion", "").empty();
+  const bool other_asked = !context.parameters.Motion("motion", "").empty() ||
+                           !context.parameters.Texts("only", {}).empty();
   if (context.shared.empty() || !has_all || other_asked) {
     return StudyMotions(context, kOfCmu.size() + kOfBandai.size(), frames);
   }
@@ -94,7 +96,7 @@ StudyMotion StudyMotions(ExperimentContext& context, size_t count, int frames) {
   const auto mocap = context.shared / "mocap" / "cmu30";
   const bool shared = !context.shared.empty() && std::filesystem::exists(mocap);
   const std::string source =
-      context.parameters.Text("motion", shared ? mocap.string() : "authored");
+      context.parameters.Motion("motion", shared ? mocap.string() : "authored");
   const auto only = context.parameters.Texts(
       "only", shared && source == mocap ? kHeldOutClips : std::vector<std::string>{});
   recon::MocapOptions options;

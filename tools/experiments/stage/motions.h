@@ -12,6 +12,9 @@ struct StudyMotion {
   std::string note;  // what they are, for tables
 };
 
+/// Asks for what StudyMotions() and TenPerformances() ask for.
+void AskForMotions(ExperimentContext& context);
+
 /// Motions for a study that no shipped database or model was made from where possible: mocap under
 /// --shared (parameters `motion`, `only`), else ossa's authored clips with movers of another seed
 /// than the shipped database's. `count` clips that last `frames` frames and stay in view, evenly
@@ -20,7 +23,7 @@ StudyMotion StudyMotions(ExperimentContext& context, size_t count, int frames);
 
 /// Ten performances, no two alike, of three people that nothing shipped was made from, in an order
 /// in which neighbours are different people; where --shared lacks them or the study names a
-/// `motion`, what StudyMotions has.
+/// `motion` or `only`, what StudyMotions has.
 StudyMotion TenPerformances(ExperimentContext& context, int frames);
 
 /// Authored clips of the given actions, `variations` movers each, with a seed of the study's own.

@@ -341,6 +341,10 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
   return pair;
 }
 
+std::string AskForObserver(Parameters& parameters) {
+  return parameters.OneOf("observer", {"forest", "simulated"}, "forest");
+}
+
 std::string ObserverNote(const std::string& observer) {
   return observer == "forest"
              ? "Observed by ossa's own forest on rendered depth images (MPFB bodies of test "

@@ -65,6 +65,9 @@ class Studio {
   std::unique_ptr<State> state_;
 };
 
+/// The parameter `observer`, "forest" by default.
+std::string AskForObserver(Parameters& parameters);
+
 /// What tables say of the observer.
 std::string ObserverNote(const std::string& observer);
 
