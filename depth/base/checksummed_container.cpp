@@ -99,6 +99,14 @@ bool IsContainer(const std::filesystem::path& path, const ContainerFormat& forma
   return file && magic == format.magic;
 }
 
+uint64_t ReadContainerChecksum(const std::filesystem::path& path) {
+  std::ifstream file = OpenFile(path);
+  Header header;
+  file.read(reinterpret_cast<char*>(&header), sizeof(header));
+  if (!file) throw InputError(path.string() + ": byte 0: expected a header of 32 bytes");
+  return header.checksum;
+}
+
 ContainerFormat ReadContainerFormat(std::span<const std::byte> bytes, const ContainerFormat& newest,
                                     uint32_t oldest) {
   Header header;

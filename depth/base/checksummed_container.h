@@ -27,6 +27,10 @@ void WriteContainer(const std::filesystem::path& path, const ContainerFormat& fo
 /// True when the file begins with the format's magic; its version and the rest may still be wrong.
 bool IsContainer(const std::filesystem::path& path, const ContainerFormat& format);
 
+/// The payload's checksum as the header has it, by which a file is known again whatever it is
+/// called. Throws InputError where the file has no header.
+uint64_t ReadContainerChecksum(const std::filesystem::path& path);
+
 /// Reads and verifies the frame; returns the payload. Throws InputError that names the file and the
 /// field when magic, byte order, version, length or checksum are not as expected.
 std::vector<std::byte> ReadContainer(const std::filesystem::path& path,

@@ -106,6 +106,9 @@ struct RefinementCascade {
   /// Learned on people seen from above, by a camera under the ceiling: needs the floor, and turns
   /// the axes to where each body faces.
   bool from_above = false;
+  /// Of the forest at whose joints the first stage begins: ReadContainerChecksum() of its file; 0
+  /// where that is not known.
+  uint64_t forest_checksum = 0;
   std::vector<RefinementStage> stages;
   Perceptron bones;  // kBoneFeatures -> kEstimatedBones, see bone_estimation.h; or empty
   /// After the bones: stages whose networks also read them (kBoneConditionedFeatures); none
@@ -123,9 +126,10 @@ struct RefinementCascade {
   static constexpr size_t kMaxStages = 8;  // of either kind
 
   /// .ossarefine, formerly .ossalook: reads refuse damaged, truncated and hostile files by name and
-  /// byte. Versions 4 to 6 are still read: 6 does not say whether the people are seen from above
-  /// (they are not), 5 is not compressed, either, and 4 has no bone-conditioned stages.
-  static constexpr uint32_t kVersion = 7, kOldestVersion = 4;
+  /// byte. Versions 4 to 7 are still read: 7 does not say which forest's joints were refined, 6 not
+  /// whether the people are seen from above (they are not), 5 is not compressed, either, and 4 has
+  /// no bone-conditioned stages.
+  static constexpr uint32_t kVersion = 8, kOldestVersion = 4;
   static RefinementCascade Load(const std::filesystem::path& path);
   /// Of a payload that is not compressed, or no longer.
   static RefinementCascade FromBytes(std::span<const std::byte> bytes, const std::string& name,

@@ -20,6 +20,7 @@ constexpr ContainerFormat kCascadeFormat = {
 constexpr uint32_t kFirstBoneConditioned = 5;  // version that has such stages
 constexpr uint32_t kFirstCompressed = 6;       // version that is
 constexpr uint32_t kFirstFromAbove = 7;        // version that may be
+constexpr uint32_t kFirstForest = 8;           // version that says of which forest
 constexpr int kCompressionLevel = 19;
 
 Perceptron GetStageNetwork(PayloadReader& in, Eigen::Index inputs, Eigen::Index outputs) {
@@ -57,6 +58,7 @@ uint32_t GetStages(PayloadReader& in, const char* name, uint32_t fewest, Eigen::
 // What a file holds beside its networks.
 struct FileCounts {
   bool from_above = false;
+  uint64_t forest_checksum = 0;
   uint64_t people = 0, measured = 0;          // as RefinementCascade's
   uint32_t stages = 0, bone_conditioned = 0;  // kStageJoints networks each
 };
@@ -74,6 +76,7 @@ FileCounts ReadNetworks(std::span<const std::byte> bytes, const std::string& nam
   FileCounts counts;
   counts.people = in.Get<uint64_t>("people");
   if (version >= kFirstFromAbove) counts.from_above = GetFromAbove(in);
+  if (version >= kFirstForest) counts.forest_checksum = in.Get<uint64_t>("forest");
   counts.stages = GetStages(in, "stages", 1, kStageFeatures, take);
   counts.measured = in.Get<uint64_t>("people whose bones were measured");
   if (counts.measured > 0) {
@@ -116,6 +119,7 @@ void RefinementCascade::Save(const std::filesystem::path& path) const {
   PayloadWriter out;
   out.Put(people);
   out.Put(uint32_t{from_above});
+  out.Put(forest_checksum);
   PutStages(out, stages);
   out.Put(bones.empty() ? uint64_t{0} : measured);
   if (!bones.empty()) {
@@ -148,6 +152,7 @@ RefinementCascade RefinementCascade::FromBytes(std::span<const std::byte> bytes,
   };
   RefinementCascade out;
   out.from_above = counts.from_above;
+  out.forest_checksum = counts.forest_checksum;
   out.people = counts.people;
   out.measured = counts.measured;
   out.stages = take_stages(counts.stages);

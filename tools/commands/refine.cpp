@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "depth/base/atomic_file.h"
+#include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
 #include "depth/base/train_interrupted.h"
 #include "forest/forest.h"
@@ -12,6 +13,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/warnings.h"
 #include "tools/learning/learn_bone_estimation.h"
 #include "tools/learning/learn_refinement_stage.h"
 #include "tools/learning/refinement_examples.h"
@@ -119,6 +121,20 @@ std::string ModelPath(const RefineArguments& a) {
   return tracker::ShippedFile(from_above ? "body_ceiling.ossa" : "body.ossa").string();
 }
 
+/// Whose joints the cascade will refine from now on. Stages that were learned at those of another
+/// forest would be run at joints that lie elsewhere, in silence.
+uint64_t TellForest(const RefineArguments& a) {
+  const uint64_t forest = ReadContainerChecksum(a.options.model_name);
+  if (a.after.empty()) return forest;
+  const uint64_t known = a.options.after.forest_checksum;
+  if (known != 0 && known != forest) {
+    SayWarnings("refine", std::vector<std::string>{fmt::format(
+                              "{}: its stages were learned at the joints of another forest than {}",
+                              a.after, a.options.model_name)});
+  }
+  return known == 0 ? 0 : forest;
+}
+
 }  // namespace
 
 int Refine(int argc, char** argv) {
@@ -134,6 +150,7 @@ int Refine(int argc, char** argv) {
   a.options.after = LoadKnown(a);
   a.options.model_name = ModelPath(a);
   const forest::ForestModel model = forest::ReadForestModel(a.options.model_name);
+  a.options.after.forest_checksum = TellForest(a);
   Progress bar("refine", a.quiet);
   a.options.stop = Interrupted;
   a.options.progress = [&](int64_t done, int64_t total) {

@@ -90,6 +90,18 @@ TEST(ChecksummedContainer, ShorterThanItsHeaderIsRefused) {
   test::ExpectRefused([&] { ReadContainer(folder / "short", kFormat); }, "found 8 bytes");
 }
 
+TEST(ChecksummedContainer, TellsItsChecksumWhateverTheFileIsCalled) {
+  const test::TemporaryFolder folder;
+  const auto written = [&](const char* name, std::byte first) {
+    WriteContainer(folder / name, kFormat, std::vector<std::byte>{first, std::byte{7}});
+    return ReadContainerChecksum(folder / name);
+  };
+  EXPECT_EQ(written("a", std::byte{1}), written("b", std::byte{1}));
+  EXPECT_NE(written("a", std::byte{1}), written("b", std::byte{2}));
+  std::ofstream(folder / "short") << "OSSA";
+  EXPECT_THROW(ReadContainerChecksum(folder / "short"), InputError);
+}
+
 TEST(ChecksummedContainer, ACountLargerThanTheFileIsRefusedBeforeAllocating) {
   PayloadWriter writer;
   writer.Put<uint64_t>(uint64_t{1} << 60);

@@ -73,6 +73,14 @@ TEST(RefinementCascade, IsFromAboveWhereTheFileSaysSo) {
   EXPECT_THROW(RefinementCascade::Load(folder / "odd.ossarefine"), InputError);
 }
 
+TEST(RefinementCascade, KnowsTheForestWhoseJointsItRefines) {
+  const ossa::test::TemporaryFolder folder;
+  RefinementCascade cascade = Silent();
+  cascade.forest_checksum = 0x0123456789abcdef;
+  cascade.Save(folder / "a.ossarefine");
+  EXPECT_EQ(RefinementCascade::Load(folder / "a.ossarefine").forest_checksum, 0x0123456789abcdef);
+}
+
 TEST(RefinementCascade, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
   const ossa::test::TemporaryFolder folder;
   SilentAndBoneConditioned().Save(folder / "now.ossarefine");
@@ -81,10 +89,21 @@ TEST(RefinementCascade, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
   std::vector<std::byte> payload =
       Decompress(ReadContainer(folder / "now.ossarefine", format), "now", "cascade");
   constexpr auto kFromAbove = static_cast<std::ptrdiff_t>(sizeof(uint64_t));  // after the people
-  const auto without_view = [](std::vector<std::byte> bytes) {
-    bytes.erase(bytes.begin() + kFromAbove, bytes.begin() + kFromAbove + sizeof(uint32_t));
+  constexpr auto kForest = static_cast<std::ptrdiff_t>(kFromAbove + sizeof(uint32_t));
+  const auto without_forest = [](std::vector<std::byte> bytes) {
+    bytes.erase(bytes.begin() + kForest, bytes.begin() + kForest + sizeof(uint64_t));
     return bytes;
   };
+  const auto without_view = [&](std::vector<std::byte> bytes) {
+    bytes = without_forest(std::move(bytes));
+    bytes.erase(bytes.begin() + kFromAbove, bytes.begin() + kForest);
+    return bytes;
+  };
+  format.version = 7;
+  WriteContainer(folder / "seven.ossarefine", format, Compress(without_forest(payload), 3));
+  EXPECT_EQ(RefinementCascade::Load(folder / "seven.ossarefine").bone_conditioned.size(), 1U);
+  EXPECT_EQ(RefinementCascade::Load(folder / "seven.ossarefine").forest_checksum, 0U);
+  EXPECT_NO_THROW(JointRefiner::Load(folder / "seven.ossarefine"));
   payload = without_view(std::move(payload));
   format.version = 6;
   WriteContainer(folder / "six.ossarefine", format, Compress(payload, 3));

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "depth/base/checksummed_container.h"
 #include "forest/forest.h"
 #include "recon/body/body_model.h"
 #include "recon/normalise.h"
@@ -178,6 +179,29 @@ TEST_F(RefineCommand, LearnsTheSameBoneConditionedStageForAnyThreads) {
   EXPECT_EQ(Cascade::Load(out).stages.size(), 1U);
   EXPECT_EQ(Cascade::Load(out).bone_conditioned.size(), 1U);
   EXPECT_NE(RunOssa({"info", out}).out.find("; 1 bone-conditioned stage"), std::string::npos);
+}
+
+TEST_F(RefineCommand, WarnsWhereTheStagesBeforeAreOfAnotherForest) {
+  const std::string first = folder_ / "first.ossarefine", out = folder_ / "two.ossarefine";
+  Learn(first, {});
+  const uint64_t forest = ReadContainerChecksum(tracker::ShippedFile("body.ossa"));
+  EXPECT_EQ(Cascade::Load(first).forest_checksum, forest);
+  const auto warning = [&](uint64_t learned_at) {
+    Cascade cascade = Cascade::Load(first);
+    cascade.forest_checksum = learned_at;
+    const auto run = RunOssa({"refine", people(), "--after", Saved("before.ossarefine", cascade),
+                              "--out", out, "--hidden", "4", "--epochs", "1", "--quiet"});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_EQ(warning(forest), "");
+  EXPECT_EQ(warning(0), "") << "an old file does not know";
+  EXPECT_EQ(Cascade::Load(out).forest_checksum, 0U) << "nor does what was added to it";
+  const std::string other = warning(forest + 1);
+  EXPECT_NE(other.find("before.ossarefine: its stages were learned at the joints of another"),
+            std::string::npos)
+      << other;
+  EXPECT_EQ(test::LineCount(other), 1) << other;
 }
 
 TEST_F(RefineCommand, LearnsNoBonesOnceAStageIsConditionedOnThem) {
