@@ -11,6 +11,7 @@
 #include "depth/base/error.h"
 #include "depth/base/naming_the_file.h"
 #include "recon/files/archive_bytes_internal.h"
+#include "recon/files/foreign_recording_internal.h"
 #include "recon/files/reading_internal.h"
 #include "recon/files/recording_names_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
@@ -72,8 +73,10 @@ const SkeletonFormat& DetectFormat(std::istream& stream, const std::string& name
   for (const SkeletonFormat& format : AllSkeletonFormats()) {
     if (format.recognises(sample)) return format;
   }
-  throw InputError(name + ": line 1: expected a skeleton recording that ossa knows, found " +
-                   Quoted(sample.lines.empty() ? sample.head : sample.lines[0]));
+  const std::string foreign = DescribeForeignRecording(head);
+  throw InputError(
+      name + ": line 1: expected a skeleton recording that ossa knows, found " +
+      (!foreign.empty() ? foreign : Quoted(sample.lines.empty() ? sample.head : sample.lines[0])));
 }
 
 /// Formats that only recordings of the Kinect SDK 2 are in; UI-PRMD's tables hold Vicon's beside

@@ -407,5 +407,50 @@ TEST(OddBvh, CutInsideItsLastRowIsRefused) {
   EXPECT_NE(ComplaintAbout(whole.substr(0, whole.size() - 2)), "") << "its last digit";
 }
 
+struct Foreign {
+  const char* name;
+  std::string text, told;
+};
+
+void PrintTo(const Foreign& foreign, std::ostream* out) { *out << foreign.name; }
+
+class ForeignRecordings : public testing::TestWithParam<Foreign> {};
+
+TEST_P(ForeignRecordings, AreRefusedByNameAndWithAWay) {
+  try {
+    Read(GetParam().text);
+    ADD_FAILURE() << "read";
+  } catch (const InputError& error) {
+    const std::string line = error.what();
+    EXPECT_NE(line.find("found " + GetParam().told), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+}
+
+using namespace std::string_literals;
+
+INSTANTIATE_TEST_SUITE_P(
+    OfOtherPrograms, ForeignRecordings,
+    testing::Values(
+        Foreign{"Fbx", "Kaydara FBX Binary  \x00\x1a\x00"s, "FBX: export it as BVH"},
+        Foreign{"FbxText", "; FBX 7.3.0 project file\n", "FBX: export it as BVH"},
+        Foreign{"Mvnx", "<?xml version=\"1.0\"?>\n<mvnx version=\"4\">\n",
+                "Xsens MVN's XML: export"},
+        Foreign{"Motive", "Format Version,1.23,Take Name,a,Capture Frame Rate,120\n\n,,Bone\n",
+                "OptiTrack Motive's CSV: export it as BVH"},
+        Foreign{"Vicon", "Trajectories\n100\n,,LASI,,\nFrame,Sub Frame,X,Y,Z\n",
+                "Vicon Nexus' CSV"},
+        Foreign{"OpenPose", R"({"version":1.3,"people":[{"pose_keypoints_2d":[1,2,0.9]}]})",
+                "2D key points (OpenPose): they lie in the image"},
+        Foreign{"Coco", R"([{"image_id":1,"keypoints":[1,2,1]}])", "2D key points (COCO)"},
+        Foreign{"MediaPipe", R"([{"landmarks":[{"x":0.5,"y":0.5,"z":0,"visibility":1}]}])",
+                "MediaPipe's landmarks: write it as ossa's JSONL"},
+        Foreign{"Named", "0 SpineBase 0.1 0.2 2.0 0.9\n0 SpineMid 0.1 0.5 2.0 0.9\n",
+                "joints by name: write it as ossa's JSONL"},
+        Foreign{"Pickle", "\x80\x04\x95 poses", "a Python pickle"},
+        Foreign{"Array", "\x93NUMPY\x01", "a NumPy array: write"},
+        Foreign{"Unknown", "plain words\n", "'plain words'"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
 }  // namespace
 }  // namespace ossa::recon

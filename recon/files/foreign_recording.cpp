@@ -1,0 +1,81 @@
+#include "recon/files/foreign_recording_internal.h"
+
+#include <array>
+
+namespace ossa::recon {
+namespace {
+
+constexpr std::string_view kExport = "export it as BVH, TRC or C3D";
+constexpr std::string_view kJsonl =
+    "write it as ossa's JSONL, metres (docs/files.md, 'Any other recording')";
+constexpr std::string_view kFlat =
+    "they lie in the image, ossa reads joints in metres: track the depth images instead";
+
+struct ForeignRecording {
+  std::string_view name;
+  std::string_view how;                   // to have it read
+  bool at_begin;                          // the first mark is what the file begins with
+  std::array<std::string_view, 2> marks;  // all are in the file's head, in small letters
+};
+
+// The unmistakable ones first: by what their programs write (FBX SDK, Xsens MVN, OptiTrack Motive,
+// Vicon Nexus, Acclaim, NumPy, pickle protocols 2 to 5, MATLAB, HDF5, glTF, OpenPose and AlphaPose,
+// COCO, MediaPipe's landmarks, Kinect SDK names).
+constexpr ForeignRecording kForeign[] = {
+    {"FBX", "export it as BVH (Blender: File, Export, Motion Capture)", true, {"kaydara fbx", ""}},
+    {"FBX", "export it as BVH (Blender: File, Export, Motion Capture)", true, {"; fbx", ""}},
+    {"Xsens MVN's XML", "export it as BVH or C3D", false, {"<mvnx", ""}},
+    {"OptiTrack Motive's CSV", kExport, false, {"format version", "capture frame rate"}},
+    {"Vicon Nexus' CSV", "export it as C3D or TRC", false, {"sub frame", ""}},
+    {"an Acclaim skeleton", "it holds no motion", false, {":bonedata", ""}},
+    {"an Acclaim motion",
+     "ossa render and ossa database read it; convert it to BVH",
+     false,
+     {":fully-specified", ""}},
+    {"a NumPy array", kJsonl, true, {"\x93numpy", ""}},
+    {"a Python pickle (SMPL's parameters are such)", kJsonl, true, {"\x80", ""}},
+    {"a MATLAB file", kJsonl, true, {"matlab 5.0 mat-file", ""}},
+    {"an HDF5 file", kJsonl, true, {"\x89hdf", ""}},
+    {"glTF", "ossa writes it; write .jsonl beside it to read it again", true, {"gltf", ""}},
+    {"2D key points (OpenPose)", kFlat, false, {"pose_keypoints_2d", ""}},
+    {"2D key points (COCO)", kFlat, false, {"\"keypoints\"", ""}},
+    {"2D key points", kFlat, false, {"nose_x", "nose_score"}},
+    {"2D key points", kFlat, false, {"nose_x", "nose_likelihood"}},
+    {"MediaPipe's landmarks", kJsonl, false, {"left_eye_inner", ""}},
+    {"MediaPipe's landmarks", kJsonl, false, {"landmarks", "visibility"}},
+    {"joints by name", kJsonl, false, {"spinebase", ""}},
+    {"joints by name", kJsonl, false, {"hipcenter", ""}},
+    {"joints by name", kJsonl, false, {"left_shoulder", "left_knee"}},
+    {"joints by name", kJsonl, false, {"leftshoulder", "leftknee"}},
+    {"joints by name", kJsonl, false, {"shoulderleft", "kneeleft"}},
+    {"joints by name", kJsonl, false, {"shoulder_left", "knee_left"}},
+};
+
+// Bytes beyond ASCII stay what they are in every locale.
+std::string InSmallLetters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return small;
+}
+
+bool Is(const ForeignRecording& foreign, std::string_view small) {
+  const auto& [first, second] = foreign.marks;
+  const bool has_first =
+      foreign.at_begin ? small.starts_with(first) : small.find(first) != small.npos;
+  return has_first && small.find(second) != small.npos;
+}
+
+}  // namespace
+
+std::string DescribeForeignRecording(std::string_view head) {
+  const std::string small = InSmallLetters(head);
+  for (const ForeignRecording& foreign : kForeign) {
+    if (!Is(foreign, small)) continue;
+    return std::string(foreign.name).append(": ").append(foreign.how);
+  }
+  return {};
+}
+
+}  // namespace ossa::recon
