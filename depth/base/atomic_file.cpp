@@ -5,7 +5,6 @@
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@
 #include "depth/base/descriptor_buffer_internal.h"
 #include "depth/base/error.h"
 #include "depth/base/leftovers.h"
+#include "depth/base/long_name.h"
 
 namespace ossa {
 namespace {
@@ -38,32 +38,14 @@ std::string HexOf(std::span<const unsigned char> bytes) {
   return text;
 }
 
-// A name cut to so many bytes, between two characters of UTF-8, with a digest of all of it, so that
-// others that begin alike are told apart, and its extension, by which it is known what it holds.
-std::string Shortened(const std::string& name, size_t bytes) {
-  constexpr size_t kExtension = 16;  // bytes at most, by hand: longer than any of ossa's
-  const std::string extension = fs::path(name).extension().string();
-  XXH64_canonical_t digest;
-  XXH64_canonicalFromHash(&digest, XXH3_64bits(name.data(), name.size()));
-  std::string end = std::string("-").append(HexOf(digest.digest));
-  if (extension.size() <= kExtension) end += extension;
-  size_t cut = bytes > end.size() ? bytes - end.size() : 0;
-  const auto continues = [&](size_t at) {
-    return (static_cast<unsigned>(name[at]) & 0xC0U) == 0x80U;
-  };
-  while (cut > 0 && continues(cut)) --cut;
-  return name.substr(0, cut) + end;
-}
-
 // The temporary name without its random end: the file's own and `.partial-`, as long as the file
 // system takes all of it.
 fs::path TemporaryNameBegin(const fs::path& final_path) {
   std::string name = final_path.filename().string();
   const size_t added = kPartial.size() + 2 * kRandomBytes;
-  const long most = pathconf(FolderOf(final_path).c_str(), _PC_NAME_MAX);  // bytes; -1: unknown
-  const auto room = static_cast<size_t>(std::max(0L, most));
+  const size_t room = LongestNameIn(FolderOf(final_path));
   // A name that is too long itself is refused as it stands.
-  if (name.size() <= room && name.size() + added > room) name = Shortened(name, room - added);
+  if (name.size() <= room && name.size() + added > room) name = ShortenName(name, room - added);
   return final_path.parent_path() / name.append(kPartial);
 }
 

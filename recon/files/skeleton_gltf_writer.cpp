@@ -152,7 +152,11 @@ class GltfWriter final : public SkeletonWriter::Format {
   }
 
   int64_t FinishWithWhatFits() override {
-    return WriteWhatFits(people_, [this](const PeopleLog& people) { WriteScene(people); });
+    const auto write = [this](const PeopleLog& people) { WriteScene(people); };
+    const int64_t frames = WriteWhatFits(people_, write);
+    if (frames > 0 || !options_.body) return frames;
+    options_.body = nullptr;  // a skin is as long as minutes of motion, and made again any time
+    return WriteWhatFits(people_, write);
   }
 
  private:

@@ -1,8 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
+#include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/line_file.h"
+#include "depth/base/long_name.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/files/skeleton_jsonl.h"
@@ -71,10 +75,15 @@ int64_t SkeletonWriter::FinishWithWhatFits() { return format_->FinishWithWhatFit
 
 fs::path PathForBody(const fs::path& path, size_t index, int id) {
   if (index == 0) return path;
+  std::string name = path.stem().string();
+  const std::string end = fmt::format("_{}{}", id, path.extension().string());
+  // The others of somebody whose own name just fits.
+  const size_t most = LongestNameIn(FolderOf(path));
+  if (path.filename().string().size() <= most && name.size() + end.size() > most) {
+    name = ShortenName(name, most - end.size());
+  }
   fs::path other = path;
-  other.replace_filename(path.stem().string() + "_" + std::to_string(id) +
-                         path.extension().string());
-  return other;
+  return other.replace_filename(name + end);
 }
 
 void CheckSkeletonExtension(const fs::path& path) {

@@ -103,5 +103,21 @@ TEST(GltfWriter, OnAFullDiskLeavesNothing) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+// A skin is some 200 kB.
+TEST(GltfWriter, WhereTheSkinDoesNotFitTheMotionIsKept) {
+  const std::filesystem::path shipped = test::SourceFolder() / "tools/tracker/shipped";
+  if (!std::filesystem::exists(shipped / "body.ossamesh")) GTEST_SKIP() << "no shipped body";
+  const auto surface = BodySurface::Load(shipped / "body.ossasurface");
+  SkeletonWriteOptions options;
+  options.body = std::make_shared<BodyMesh>(BodyMesh::Load(shipped / "body.ossamesh", surface));
+  const test::TemporaryFolder folder;
+  SkeletonWriter writer(folder / "x.glb", options);
+  for (const SkeletonFrame& frame : ExampleSequence(20).frames) writer.Write(frame);
+  const test::FullDisk disk(60000);
+  EXPECT_THROW(writer.Finish(), DiskFull);
+  EXPECT_GT(writer.FinishWithWhatFits(), 10);
+  EXPECT_EQ(TextOf(folder / "x.glb").find("\"skin\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ossa::recon

@@ -138,6 +138,20 @@ TEST_P(LineFormats, CanBeReadBeforeTheyAreFinished) {
 
 INSTANTIATE_TEST_SUITE_P(SkeletonWriter, LineFormats, testing::Values(".jsonl", ".csv", ".trc"));
 
+TEST(SkeletonWriter, OfTheLongestNameTheOthersFilesAreNamedShorter) {
+  const TemporaryFolder folder;
+  const std::string name = std::string(251, 'n') + ".bvh";
+  const SkeletonSequence two = ExampleSequence(5, 2);
+  WriteSkeletons(folder / name, two);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    names.push_back(entry.path().filename().string());
+  }
+  ASSERT_EQ(names.size(), 2U);
+  const std::string other = names[names[0] == name ? 1 : 0];
+  EXPECT_TRUE(other.ends_with("_2.bvh")) << other;
+}
+
 // A table begins with the recording, whoever comes later.
 TEST(SkeletonWriter, WhoComesLaterHasATableOfAllFrames) {
   const TemporaryFolder folder;
