@@ -148,12 +148,25 @@ bool SaysFrame(std::string_view before) {
   return lower.find("frame") != lower.npos;
 }
 
+// As programs write what they count, and clocks hardly: 000100, 000200.
+bool ArePaddedWithZeros(const std::vector<NumberedName>& names) {
+  bool any = false;
+  for (const NumberedName& name : names) {
+    if (name.whole.size() != names.front().whole.size()) return false;
+    any = any || (name.whole.size() > 1 && name.whole.front() == '0');
+  }
+  return any;
+}
+
 // Of 0, 20, 40, 80: every twentieth frame was kept, and one of those taken away. Milliseconds of
 // cameras that are faster than 30 frames a second come unevenly, 16 and 17 or 11 and 12 in turns.
-bool CountEveryNthFrame(const std::vector<int64_t>& values, int64_t step, bool says_frame) {
+bool CountEveryNthFrame(const std::vector<int64_t>& values, int64_t step, bool says_frame,
+                        bool padded) {
   constexpr int64_t kLeastEvenTimeStep = 30;  // ms: of a program that waits so long
+  constexpr int64_t kMostEveryNth = 1000;     // of data sets' choices, by hand
   constexpr size_t kEnough = 3;               // one step is even by itself
-  const bool may_be_times = step >= kLeastEvenTimeStep && !says_frame;
+  const bool says_count = says_frame || (padded && step <= kMostEveryNth);
+  const bool may_be_times = step >= kLeastEvenTimeStep && !says_count;
   if (values.size() < kEnough || step < 2 || may_be_times) return false;
   for (size_t i = 1; i < values.size(); ++i) {
     if ((values[i] - values[i - 1]) % step != 0) return false;
@@ -170,7 +183,8 @@ NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
   const bool says_frame = SaysFrame(first.before);
   NamedTimes times;
   const int64_t step = values.size() > 1 ? MedianStep(values) : 1;
-  const bool counts = digits <= kLongestCount && CountEveryNthFrame(values, step, says_frame);
+  const bool counts = digits <= kLongestCount &&
+                      CountEveryNthFrame(values, step, says_frame, ArePaddedWithZeros(names));
   const auto unit_s = counts ? std::nullopt : GuessUnitOfNumbers(step, digits);
   if (unit_s) {
     times.kind = NamedTimes::Kind::kTimes;

@@ -84,6 +84,12 @@ const char* HowToConvert(const std::filesystem::path& file) {
   constexpr const char* kFloats =
       "an image of floats: Python's ossa.Tracker takes whole millimetres, as uint16";
   constexpr const char* kCloud = "a cloud of points, which is no image: record the depth images";
+  constexpr const char* kSens =
+      "a ScanNet recording: its SensReader's 'reader.py --export_depth_images "
+      "--export_intrinsics' makes 16-bit PNGs of it";
+  constexpr const char* kKlg =
+      "a log of Kintinuous or ElasticFusion: unpack its depth images to 16-bit PNGs, which are "
+      "millimetres already";
   constexpr const char* kZed = "a ZED recording: its SDK's ZED_SVO_Export makes 16-bit PNGs of it";
   using How = std::pair<std::string_view, const char*>;
   constexpr std::array kHow = {
@@ -93,12 +99,27 @@ const char* HowToConvert(const std::filesystem::path& file) {
       How{".npy", kArray},  How{".npz", kArray}, How{".mat", kArray},  How{".h5", kArray},
       How{".hdf5", kArray}, How{".pkl", kArray}, How{".raw", kRaw},    How{".bin", kRaw},
       How{".exr", kFloats}, How{".ply", kCloud}, How{".pcd", kCloud},  How{".svo", kZed},
-      How{".svo2", kZed}};
+      How{".svo2", kZed},   How{".sens", kSens}, How{".klg", kKlg}};
   const auto found = std::find_if(
       kHow.begin(), kHow.end(),
       [extension = LowerCaseExtension(file)](const auto& how) { return how.first == extension; });
   return found == kHow.end() ? nullptr : found->second;
 }
+
+namespace {
+
+// Of depth images of another format and nothing else: beside skeletons there may be videos.
+bool HoldsOnlyForeignImages(const std::filesystem::path& folder) {
+  bool any = false;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename().string().starts_with('.')) continue;
+    if (!entry.is_regular_file() || HowToConvert(entry.path()) == nullptr) return false;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
 
 bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
@@ -108,9 +129,10 @@ bool IsRecording(const std::filesystem::path& path) {
            HowToConvert(file) != nullptr;
   }
   const std::filesystem::directory_iterator entries(path);
-  return std::any_of(begin(entries), end(entries), [](const auto& entry) {
+  const bool has_depth = std::any_of(begin(entries), end(entries), [](const auto& entry) {
     return IsPngName(entry.path()) || entry.path().filename() == "depth.txt";
   });
+  return has_depth || HoldsOnlyForeignImages(path);
 }
 
 void SourceOptions::Check() const {

@@ -127,7 +127,7 @@ TEST(FolderSource, TimesInNamesAreTimes) {
 // Or are every thirtieth frame: whoever reads them must know what was made of it.
 TEST(FolderSource, NumbersThatAreTakenForTimesAreToldOf) {
   const TemporaryFolder folder;
-  for (const char* name : {"000000.png", "000030.png", "000060.png"}) WriteFrame(folder / name, 1);
+  for (const char* name : {"0.png", "30.png", "60.png"}) WriteFrame(folder / name, 1);
   Notes notes;
   EXPECT_NEAR(TimesOf(*OpenSource(folder.path().string(), notes.Options()))[2], 0.06, 1e-9);
   EXPECT_TRUE(notes.Tell("numbers in its names")) << notes.text;

@@ -79,10 +79,10 @@ TEST(OpenNi1Oni, IsRead) {
 TEST(OtherRecordings, SayHowToConvertThem) {
   const test::TemporaryFolder folder;
   const std::vector<std::pair<const char*, const char*>> cases = {
-      {"a.xef", "KinectXEFTools"}, {"a.MP4", "ffmpeg"},         {"a.mcap", "rosbags-convert"},
-      {"a.TIFF", "mogrify"},       {"a.npy", "ossa.Tracker"},   {"a.h5", "ossa.Tracker"},
-      {"a.exr", "of floats"},      {"a.bin", "numpy.fromfile"}, {"a.PLY", "a cloud of points"},
-      {"a.svo2", "ZED_SVO_Export"}};
+      {"a.xef", "KinectXEFTools"},  {"a.MP4", "ffmpeg"},         {"a.mcap", "rosbags-convert"},
+      {"a.TIFF", "mogrify"},        {"a.npy", "ossa.Tracker"},   {"a.h5", "ossa.Tracker"},
+      {"a.exr", "of floats"},       {"a.bin", "numpy.fromfile"}, {"a.PLY", "a cloud of points"},
+      {"a.svo2", "ZED_SVO_Export"}, {"a.sens", "reader.py"},     {"a.klg", "ElasticFusion"}};
   for (const auto& each : cases) {
     const auto path = folder / each.first;
     std::ofstream(path) << "x";
@@ -96,6 +96,9 @@ TEST(OtherImages, InAFolderWithoutOursSayHowToConvertThem) {
   std::ofstream(folder / "depth_0.pgm") << "P5";
   test::ExpectRefused([&] { OpenSource(folder.path()); },
                       "depth_0.pgm: expected 16-bit PNGs, found an image that is no PNG");
+  EXPECT_TRUE(IsRecording(folder.path())) << "and not skeletons to ossa info";
+  std::ofstream(folder / "walk.bvh") << "HIERARCHY";
+  EXPECT_FALSE(IsRecording(folder.path()));
 }
 
 }  // namespace
