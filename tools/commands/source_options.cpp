@@ -49,6 +49,9 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
   }
   if (arguments.depth_scale > 0) options.depth_scale = arguments.depth_scale;
   if (arguments.fps > 0) options.fps = arguments.fps;
+  options.guessed = [guessed = arguments.guessed](const depth::CameraGuess& guess) {
+    *guessed = guess.preset;
+  };
   options.note = [quiet, said = arguments.said](depth::NoteKind kind, const std::string& text) {
     SayNote(kind, OnOneLine(text), quiet, *said);
   };

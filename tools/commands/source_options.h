@@ -22,6 +22,8 @@ struct SourceArguments {
   double fps = 0.0;          // 0: not said
   std::string rotate = "auto";
   std::shared_ptr<std::set<std::string>> said = std::make_shared<std::set<std::string>>();
+  // Whose camera it was taken for by its images' size alone: a preset's name; "": it is stated.
+  std::shared_ptr<std::string> guessed = std::make_shared<std::string>();
   double wait_s = 0.0;
   double patience_s = 5.0;
 };

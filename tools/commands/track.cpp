@@ -286,6 +286,7 @@ void CheckComplete(const TrackOptions& options, const Run& run) {
 void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
   DoEach("track", {[&] { to.output.Finish(); }, [&] { to.pictures.Finish(); },
                    [&] { Report(to.options, run); }, [&] { SayNobody(to.options, camera, run); },
+                   [&] { to.person.SayUnlikelyStature(to.options, camera); },
                    [&] { SayMissingFloor(to.tracker, to.options); }, [&] { to.trace.Finish(); },
                    [&] { to.person.Finish(to.options); }, [&] { CheckComplete(to.options, run); }});
   if (run.full) throw InputError(*run.full);  // of no output, then: of what the viewer keeps

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "depth/image/camera_presets.h"
 #include "tools/commands/outputs.h"
 #include "tools/tracker/picture.h"
 
@@ -19,6 +20,29 @@ size_t TrackedJoints(const tracker::BodyFrame& bodies) {
         [](const tracker::JointEstimate& j) { return j.state == recon::TrackingState::kTracked; }));
   }
   return count;
+}
+
+// Of nearly all who are grown up; a child's is told of, too, and may be right.
+constexpr double kLeastStature_m = 1.35, kMostStature_m = 2.15;  // by hand
+
+bool IsUnlikely(const recon::Stature& stature) {
+  constexpr double kSigmas = 2.0;  // standard deviations, by hand: hardly by chance
+  const double sure_m = kSigmas * stature.sigma_m;
+  return stature.stature_m + sure_m < kLeastStature_m ||
+         stature.stature_m - sure_m > kMostStature_m;
+}
+
+/// Presets by whose view somebody so tall by `camera` is as tall as most; "" where there is none.
+std::string ListLikelierCameras(double stature_m, const depth::Camera& camera) {
+  constexpr double kShort_m = 1.5, kTall_m = 2.0;  // by hand
+  std::string list;
+  for (const std::string_view name : depth::CameraPresetNames()) {
+    const depth::Camera other = depth::PresetCamera(name, camera.width, camera.height);
+    const double so_m = stature_m * camera.fx / other.fx;
+    if (so_m < kShort_m || so_m > kTall_m) continue;
+    list += fmt::format("{}{}: {:.2f} m", list.empty() ? " (" : ", ", name, so_m);
+  }
+  return list.empty() ? list : list + ")";
 }
 
 }  // namespace
@@ -96,12 +120,33 @@ void PersonKeeper::Take(const tracker::BodyFrame& bodies) {
   }
 }
 
-void PersonKeeper::Finish(const TrackOptions& options) const {
-  if (path_.empty()) return;
+const std::pair<const int, PersonKeeper::Kept>* PersonKeeper::FindMostFitted() const {
   const auto most = std::max_element(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) {
     return a.second.fits < b.second.fits;
   });
-  if (most == kept_.end() || most->second.fits == 0) {
+  return most == kept_.end() || most->second.fits == 0 ? nullptr : &*most;
+}
+
+void PersonKeeper::SayUnlikelyStature(const TrackOptions& options,
+                                      const depth::Camera& camera) const {
+  const std::string& preset = *options.source.guessed;
+  const auto* most = FindMostFitted();
+  if (options.quiet || !options.source.camera.empty() || preset.empty() || most == nullptr) return;
+  const recon::Stature stature =
+      recon::MeasureStature(most->second.shape, *options.tracker.models->surface);
+  if (!IsUnlikely(stature)) return;
+  Say(
+      fmt::format("ossa track: {}: person {} is {:.2f} m tall as a {} sees them (f {:.0f} px), "
+                  "which nothing but the image size spoke for: unless they are, see whether "
+                  "--camera{} and --depth-scale are right\n",
+                  options.source.name, most->first, stature.stature_m, preset, camera.fx,
+                  ListLikelierCameras(stature.stature_m, camera)));
+}
+
+void PersonKeeper::Finish(const TrackOptions& options) const {
+  if (path_.empty()) return;
+  const auto* most = FindMostFitted();
+  if (most == nullptr) {
     throw InputError(path_ + ": expected a person in the recording, found none; not written");
   }
   const recon::PersonShape& shape = most->second.shape;

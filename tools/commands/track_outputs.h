@@ -52,19 +52,25 @@ class Pictures {
   tracker::BodyFrame best_;
 };
 
-/// Of whom --save-person keeps what.
+/// What was fitted of whom: for --save-person, and to hold a guessed camera against.
 class PersonKeeper {
  public:
   explicit PersonKeeper(const TrackOptions& options);
   void Take(const tracker::BodyFrame& bodies);
   /// Throws InputError where nobody was fitted.
   void Finish(const TrackOptions& options) const;
+  /// Of a camera that was guessed: unless quiet says where whoever was fitted most is as tall as
+  /// hardly anybody grown, and by which other cameras' view they would not be.
+  void SayUnlikelyStature(const TrackOptions& options, const depth::Camera& camera) const;
 
  private:
   struct Kept {
     recon::PersonShape shape;
     int64_t fits = 0;
   };
+  /// Who was fitted most, by id; null: nobody.
+  const std::pair<const int, Kept>* FindMostFitted() const;
+
   std::string path_;
   std::map<int, Kept> kept_;
 };

@@ -1,6 +1,7 @@
 // `ossa track` and the surface fit: fitted joints, the file of a person.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -32,6 +33,47 @@ TEST(TrackCommand, SavesThePersonAndTakesThemAgain) {
   ASSERT_EQ(again.exit_status, 0) << again.err;
   const CommandResult info = RunOssa({"info", me});
   EXPECT_NE(info.out.find("m tall"), std::string::npos) << info.out;
+}
+
+// As a camera of a third wider view has it, of the same size: a D435's f is 384 px where a Kinect's
+// is 575.
+void WidenView(const std::filesystem::path& folder) {
+  constexpr double kWider = 575.0 / 384.0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto image = depth::ReadDepthPng(entry.path());
+    depth::DepthFrame frame;
+    frame.camera = depth::KinectV1Camera(image.width, image.height);
+    frame.depth_mm.assign(image.data.size(), 0);
+    for (int v = 0; v < image.height; ++v) {
+      for (int u = 0; u < image.width; ++u) {
+        const auto from_u = static_cast<int>(std::lround((u - 0.5 * image.width) * kWider));
+        const auto from_v = static_cast<int>(std::lround((v - 0.5 * image.height) * kWider));
+        const int x = from_u + image.width / 2, y = from_v + image.height / 2;
+        if (x < 0 || y < 0 || x >= image.width || y >= image.height) continue;
+        frame.depth_mm[static_cast<size_t>(v * image.width + u)] =
+            image.data[static_cast<size_t>(y * image.width + x)];
+      }
+    }
+    depth::WriteDepthPng(entry.path(), frame.view());
+  }
+}
+
+TEST(TrackCommand, SaysWhereAGuessedCameraMakesAdultsChildren) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "in", 12);
+  const auto told = [&](const std::vector<std::string>& more) {
+    const CommandResult run = TrackTo(folder / "in", folder / "x.jsonl", more, "best");
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_EQ(told({}).find("tall as"), std::string::npos) << "a Kinect's";
+  WidenView(folder / "in");
+  const std::string wide = told({});
+  EXPECT_NE(wide.find("m tall as a kinect-v1 sees them"), std::string::npos) << wide;
+  EXPECT_NE(wide.find("d435: 1."), std::string::npos) << wide;
+  EXPECT_EQ(told({"--camera", "d435"}).find("tall as"), std::string::npos) << "said";
+  EXPECT_EQ(told({"--quiet"}), "");
 }
 
 TEST(TrackCommand, RefusesAPersonFileThatIsDamaged) {
