@@ -16,6 +16,7 @@
 #include "recon/files/recording_names_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/skeleton_source_internal.h"
+#include "recon/files/unlikely_unit_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -156,6 +157,9 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   CheckBodies(sequence, input.name);
   CheckPlaces(sequence, input.name);
   CheckTimes(sequence, input.name);
+  if (const std::string unlikely = DescribeUnlikelyUnit(sequence); !unlikely.empty()) {
+    sequence.warnings.push_back(input.name + ": " + unlikely);
+  }
   if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;
   if (AreRefinedJoints(sequence)) sequence.sensor = kRefinedJoints;
   return sequence;

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "depth/base/statistics.h"
+#include "recon/files/unlikely_unit_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+// Lengths of thighs, shins and upper arms, the bones that every format has.
+std::vector<double> MeasureLimbs(const SkeletonSequence& sequence) {
+  constexpr std::array<std::pair<Joint, Joint>, 6> kLimbs = {{
+      {Joint::kHipLeft, Joint::kKneeLeft},
+      {Joint::kHipRight, Joint::kKneeRight},
+      {Joint::kKneeLeft, Joint::kAnkleLeft},
+      {Joint::kKneeRight, Joint::kAnkleRight},
+      {Joint::kShoulderLeft, Joint::kElbowLeft},
+      {Joint::kShoulderRight, Joint::kElbowRight},
+  }};
+  std::vector<double> lengths_m;
+  for (const SkeletonFrame& frame : sequence.frames) {
+    for (const BodyRecord& body : frame.bodies) {
+      for (const auto& [a, b] : kLimbs) {
+        if (!body.joints[a] || !body.joints[b]) continue;
+        lengths_m.push_back((body.joints[a]->position_m - body.joints[b]->position_m).norm());
+      }
+    }
+  }
+  return lengths_m;
+}
+
+}  // namespace
+
+std::string DescribeUnlikelyUnit(const SkeletonSequence& sequence) {
+  // Metres, by hand: a newborn's are longer, no giant's as long.
+  constexpr double kShortest_m = 0.05, kLongest_m = 2.0;
+  std::vector<double> lengths_m = MeasureLimbs(sequence);
+  if (lengths_m.empty()) return {};
+  const double limb_m = Median(std::move(lengths_m));
+  if (limb_m >= kShortest_m && limb_m <= kLongest_m) return {};
+  return fmt::format(
+      "thighs, shins and upper arms are {:.3g} m long, which are no person's: is it in another "
+      "unit than it says?",
+      limb_m);
+}
+
+}  // namespace ossa::recon

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "recon/skeleton_sequence.h"
+
+namespace ossa::recon {
+
+/// What is odd about people's size in a recording whose file states another unit than it is in, and
+/// that would else be read in silence, a thousand times too large. "" where nothing is.
+std::string DescribeUnlikelyUnit(const SkeletonSequence& sequence);
+
+}  // namespace ossa::recon
