@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every numeric constant says its unit and its origin.
 
-Usage: check_constants.py [--list] [FILE...]   (all sources of the rooms without FILE)
+Usage: check_constants.py [--list] [FILE...]   (all sources of the modules without FILE)
 
 A constant is `constexpr TYPE kName = ...;` of an arithmetic type, or a numeric default member of a
 struct named *Options, *Constants, *Traits, *Parameters or *Thresholds. Free of the rule are 0 and
@@ -25,7 +25,7 @@ import re
 import subprocess
 import sys
 
-ROOMS = ("depth", "forest", "recon", "physics", "tools")
+MODULES = ("depth", "forest", "recon", "physics", "tools")
 
 WHOLE = r"(?:unsigned(?: int| long)?|int|long|size_t|std::size_t|(?:std::)?u?int\d+_t|std::streamoff|(?:std::)?ptrdiff_t)"
 NUMBER = rf"(?:{WHOLE}|float|double|auto)"
@@ -159,23 +159,23 @@ def main():
                                     check=True).stdout.split()
     found, total = {}, 0
     for path in files:
-        room = path.split("/")[0]
-        if room not in ROOMS and not named:
+        module = path.split("/")[0]
+        if module not in MODULES and not named:
             continue
         lines = (top / path).read_text().splitlines()
         total += sum(1 for _ in constants_of(lines))
         for number, name, missing in faults_of(lines):
-            found.setdefault(room, []).append(f"{path}:{number}: {name} says no {missing}")
+            found.setdefault(module, []).append(f"{path}:{number}: {name} says no {missing}")
     if named or "--list" in options:
-        print("\n".join(line for room in sorted(found) for line in found[room]))
+        print("\n".join(line for module in sorted(found) for line in found[module]))
     if named:
         return 1 if found else 0
-    counts = {room: len(found.get(room, [])) for room in ROOMS}
+    counts = {module: len(found.get(module, [])) for module in MODULES}
     if "--list" in options:
         print(f"{sum(counts.values())} of {total} constants do not comply: {counts}")
-    for room in ROOMS:
-        if counts[room]:
-            print(f"{room}: {counts[room]} constants say no unit or origin (see tests/check_constants.py and its --list)")
+    for module in MODULES:
+        if counts[module]:
+            print(f"{module}: {counts[module]} constants say no unit or origin (see tests/check_constants.py and its --list)")
     if total < 100:
         print(f"expected the project's constants, found {total}")
     return 1 if any(counts.values()) or total < 100 else 0

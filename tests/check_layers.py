@@ -1,24 +1,25 @@
 #!/usr/bin/env python3
-"""The rooms of docs/architecture.md: the arrows between them, their sizes, and the way of a frame.
+"""The modules of docs/architecture.md: the dependencies between them, their sizes, and the path of a frame.
 
 Usage: check_layers.py [--sizes] [TOP]
 
 Prints each broken rule as FILE:LINE: reason; exit status 1 if any.
 
-Arrows   who may include whom (ARROWS, TOOLS), read from every #include. No two folders include each other.
-Sizes    every source file lies in a folder that docs/architecture.md lists under "Rooms", and the largest
-         of these has less than LARGEST of the lines. A file counts in the deepest listed folder that it
-         lies in. --sizes prints them all, and the folders at the top.
-Walk     each step of a frame's way through the tracker is called from the list before it and from nowhere
-         else (WALK): no step calls back into an earlier one.
+Dependencies  who may include whom (DEPENDENCIES, TOOLS), read from every #include. No two folders include
+              each other.
+Sizes         every source file lies in a folder that docs/architecture.md lists under "Modules", and the
+              largest of these has less than LARGEST of the lines. A file counts in the deepest listed folder
+              that it lies in. --sizes prints them all, and the folders at the top.
+Path          each step of a frame's path through the tracker is called from the list before it and from
+              nowhere else (FRAME_PATH): no step calls back into an earlier one.
 """
 import collections
 import pathlib
 import re
 import sys
 
-# Who may include whom; a room may always include itself.
-ARROWS = {
+# Who may include whom; a module may always include itself.
+DEPENDENCIES = {
     "depth": set(),
     "forest": {"depth"},
     "recon": {"depth"},
@@ -38,13 +39,13 @@ HIDDEN = re.compile(
 # tools/commands is the command itself, no library: nobody includes it from outside. NiTE's headers
 # show OpenNI2, as NiTE's programs expect.
 SHOWING = ("tools/commands/", "tools/nite2/include/")
-# The largest room, as a share of the lines of all of them.
+# The largest module, as a share of the lines of all of them.
 LARGEST = 0.20
 CODE = (".h", ".cpp", ".c", ".inc", ".py", ".js", ".css", ".html")
-ROOM = re.compile(r"^\| `([\w/]+)/` \|")
-# The way of a frame, in order: each step, and who calls it. Tracker::Track calls the first two, the list
+MODULE = re.compile(r"^\| `([\w/]+)/` \|")
+# The path of a frame, in order: each step, and who calls it. Tracker::Track calls the first two, the list
 # kStages calls the steps of a person, and these call what they are made of.
-WALK = {
+FRAME_PATH = {
     "DetectPeople": {"tools/tracker/track_frame.cpp"},
     "forest::Classify": {"tools/people/forest_evidence.cpp"},
     "forest::Propose": {"tools/people/forest_evidence.cpp"},
@@ -64,14 +65,14 @@ WALK = {
     "Simulate": {"tools/tracker/skeleton_stages.cpp"},
     "Finish": {"tools/tracker/skeleton_stages.cpp"},
 }
-WALKED = ("tools/people", "tools/tracker")
+FRAME_PATH_FOLDERS = ("tools/people", "tools/tracker")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def broken_rules(top: pathlib.Path):
     folders_of = {}
-    for room, allowed in ARROWS.items():
-        for path in sorted((top / room).rglob("*")):
+    for module, allowed in DEPENDENCIES.items():
+        for path in sorted((top / module).rglob("*")):
             if path.suffix not in (".h", ".cpp"):
                 continue
             name = path.relative_to(top).as_posix()
@@ -81,21 +82,21 @@ def broken_rules(top: pathlib.Path):
                 if not match:
                     continue
                 target = match.group(2)
-                target_room = target.split("/")[0]
-                if target_room in ARROWS:
-                    if target_room != room and target_room not in allowed:
-                        yield f"{name}:{number}: {room}/ may not include {target}"
-                    if target.endswith("_internal.h") and target_room != room:
-                        yield f"{name}:{number}: {target} belongs to {target_room}/ alone"
+                target_module = target.split("/")[0]
+                if target_module in DEPENDENCIES:
+                    if target_module != module and target_module not in allowed:
+                        yield f"{name}:{number}: {module}/ may not include {target}"
+                    if target.endswith("_internal.h") and target_module != module:
+                        yield f"{name}:{number}: {target} belongs to {target_module}/ alone"
                     of_tools = "/".join(target.split("/")[:2])
                     home = "/".join(name.split("/")[:2])
-                    if home in TOOLS and target_room == "tools" and of_tools not in TOOLS[home] | {home}:
+                    if home in TOOLS and target_module == "tools" and of_tools not in TOOLS[home] | {home}:
                         yield f"{name}:{number}: {home}/ may not include {target}"
                     source, sink = path.parent.relative_to(top).as_posix(), str(pathlib.PurePosixPath(target).parent)
                     if source != sink:
                         folders_of.setdefault((source, sink), f"{name}:{number}")
-                elif target_room == "tests":
-                    yield f"{name}:{number}: the rooms may not include the tests"
+                elif target_module == "tests":
+                    yield f"{name}:{number}: the modules may not include the tests"
                 elif public and HIDDEN.match(target) and not name.startswith(SHOWING):
                     yield f"{name}:{number}: public header shows {target}"
     for (source, sink), place in folders_of.items():
@@ -103,24 +104,24 @@ def broken_rules(top: pathlib.Path):
             yield f"{place}: {source}/ and {sink}/ include each other (see {folders_of[(sink, source)]})"
 
 
-def listed_rooms(top: pathlib.Path):
-    section = (top / "docs/architecture.md").read_text().split("\n## Rooms", 1)[-1].split("\n## ", 1)[0]
-    return [match.group(1) for match in map(ROOM.match, section.splitlines()) if match and match.group(1) != "tests"]
+def listed_modules(top: pathlib.Path):
+    section = (top / "docs/architecture.md").read_text().split("\n## Modules", 1)[-1].split("\n## ", 1)[0]
+    return [match.group(1) for match in map(MODULE.match, section.splitlines()) if match and match.group(1) != "tests"]
 
 
-def room_sizes(top: pathlib.Path):
-    """Lines of each listed room, and the folders of code that are in none."""
-    rooms = listed_rooms(top)
-    sizes, homeless = collections.Counter({room: 0 for room in rooms}), set()
-    for room in ARROWS:
-        for path in (top / room).rglob("*"):
+def module_sizes(top: pathlib.Path):
+    """Lines of each listed module, and the folders of code that are in none."""
+    modules = listed_modules(top)
+    sizes, homeless = collections.Counter({module: 0 for module in modules}), set()
+    for module in DEPENDENCIES:
+        for path in (top / module).rglob("*"):
             if path.suffix not in CODE or not path.is_file():
                 continue
             folder = path.parent.relative_to(top).as_posix()
-            homes = [home for home in rooms if folder == home or folder.startswith(home + "/")]
+            homes = [home for home in modules if folder == home or folder.startswith(home + "/")]
             home = max(homes, key=len, default=None)
-            # tools/ and recon/ are rooms of rooms: a folder of them has a line of its own.
-            if home is None or (home in ARROWS and folder != home):
+            # tools/ and recon/ only hold modules: a folder of them has a line of its own.
+            if home is None or (home in DEPENDENCIES and folder != home):
                 homeless.add(folder)
             else:
                 sizes[home] += len(path.read_text(errors="replace").splitlines())
@@ -133,35 +134,35 @@ def count_lines(folder: pathlib.Path) -> int:
 
 
 def print_sizes(top: pathlib.Path):
-    sizes, _ = room_sizes(top)
+    sizes, _ = module_sizes(top)
     total = sum(sizes.values())
-    for room, lines in sizes.most_common():
+    for module, lines in sizes.most_common():
         if lines > 0:
-            print(f"{lines:6} {lines / total:6.1%} {room}/")
+            print(f"{lines:6} {lines / total:6.1%} {module}/")
     with_tests = total + count_lines(top / "tests")
-    for room in ARROWS:
-        lines = count_lines(top / room)
-        print(f"{lines:6} {lines / total:6.1%} {room}/ and all below; tests counted, {lines / with_tests:.1%}")
+    for module in DEPENDENCIES:
+        lines = count_lines(top / module)
+        print(f"{lines:6} {lines / total:6.1%} {module}/ and all below; tests counted, {lines / with_tests:.1%}")
 
 
 def broken_sizes(top: pathlib.Path):
-    sizes, homeless = room_sizes(top)
+    sizes, homeless = module_sizes(top)
     for folder in sorted(homeless):
-        yield f"docs/architecture.md: expected {folder}/ in the list of rooms"
+        yield f"docs/architecture.md: expected {folder}/ in the list of modules"
     total = sum(sizes.values())
-    for room, lines in sizes.most_common():
+    for module, lines in sizes.most_common():
         if lines >= LARGEST * total:
-            yield f"{room}/: {lines} of {total} lines, at most {LARGEST:.0%}: make rooms of it"
+            yield f"{module}/: {lines} of {total} lines, at most {LARGEST:.0%}: make modules of it"
 
 
-def broken_walk(top: pathlib.Path):
+def broken_path(top: pathlib.Path):
     """Calls of a step from elsewhere; &Step and {Step, ...} of a list of stages count as calls."""
     called = collections.Counter()
-    for path in sorted(source for folder in WALKED for source in (top / folder).glob("*.cpp")):
+    for path in sorted(source for folder in FRAME_PATH_FOLDERS for source in (top / folder).glob("*.cpp")):
         name = path.relative_to(top).as_posix()
         for number, line in enumerate(path.read_text().splitlines(), 1):
             code = line.split("//")[0]
-            for step, callers in WALK.items():
+            for step, callers in FRAME_PATH.items():
                 if not re.search(rf"(?<![\w.>:]){step}\b\s*[(,}}]|(?<=people::){step}\(", code):
                     continue
                 if re.match(rf"[\w:<>]+ {step}\(", code):
@@ -169,9 +170,9 @@ def broken_walk(top: pathlib.Path):
                 called[step] += 1
                 if name not in callers:
                     yield f"{name}:{number}: calls {step} out of turn: {' and '.join(sorted(callers))} does"
-    for step in WALK:
+    for step in FRAME_PATH:
         if called[step] == 0:
-            yield f"tests/check_layers.py: nobody calls {step}: its WALK is not the tracker's"
+            yield f"tests/check_layers.py: nobody calls {step}: FRAME_PATH is not the tracker's"
 
 
 def main() -> int:
@@ -179,7 +180,7 @@ def main() -> int:
     top = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).parent.parent).resolve()
     if "--sizes" in sys.argv:
         print_sizes(top)
-    found = [*broken_rules(top), *broken_sizes(top), *broken_walk(top)]
+    found = [*broken_rules(top), *broken_sizes(top), *broken_path(top)]
     for line in found:
         print(line)
     return 1 if found else 0

@@ -9,8 +9,8 @@ import unittest
 
 import check_layers
 
-PAGE = "# Architecture\n\n## Rooms\n\n| room | library |\n|---|---|\n| `depth/` | |\n| `recon/` | |\n| `recon/fit/` | |\n\n## Files\n"
-# Rooms are of one size, so that each has less than a fifth only where five of them are listed.
+PAGE = "# Architecture\n\n## Modules\n\n| module | library |\n|---|---|\n| `depth/` | |\n| `recon/` | |\n| `recon/fit/` | |\n\n## Files\n"
+# Modules are of one size, so that each has less than a fifth only where five of them are listed.
 FIVE = PAGE.replace("| `depth/` | |\n", "".join(f"| `depth/{name}/` | |\n" for name in "abcdef"))
 
 
@@ -29,27 +29,27 @@ class WithTree(unittest.TestCase):
         path.write_text(text)
 
 
-class Rooms(WithTree):
-    def test_a_tree_of_even_rooms_passes(self):
+class Modules(WithTree):
+    def test_a_tree_of_even_modules_passes(self):
         self.assertEqual(list(check_layers.broken_rules(self.top)), [])
         self.assertEqual(list(check_layers.broken_sizes(self.top)), [])
 
-    def test_a_room_of_a_fifth_is_too_large(self):
+    def test_a_module_of_a_fifth_is_too_large(self):
         self.write("depth/a/more.cpp", "int y;\n" * 10)
         self.assertRegex("\n".join(check_layers.broken_sizes(self.top)), r"^depth/a/: 20 of 70 lines")
 
-    def test_a_file_counts_in_the_deepest_room(self):
+    def test_a_file_counts_in_the_deepest_module(self):
         self.write("recon/fit/fit.cpp", "int y;\n" * 7)
         self.write("recon/posture.cpp", "int y;\n" * 3)
-        sizes, _ = check_layers.room_sizes(self.top)
+        sizes, _ = check_layers.module_sizes(self.top)
         self.assertEqual((sizes["recon/fit"], sizes["recon"]), (7, 3))
 
     def test_a_folder_that_the_page_does_not_list_is_told(self):
         self.write("recon/attic/old.cpp", "int y;\n")
         self.assertEqual(list(check_layers.broken_sizes(self.top)),
-                         ["docs/architecture.md: expected recon/attic/ in the list of rooms"])
+                         ["docs/architecture.md: expected recon/attic/ in the list of modules"])
 
-    def test_an_arrow_up_is_told_by_file_and_line(self):
+    def test_an_upward_dependency_is_told_by_file_and_line(self):
         self.write("depth/a/up.cpp", '\n#include "recon/posture.h"\n')
         self.assertEqual(list(check_layers.broken_rules(self.top)),
                          ["depth/a/up.cpp:2: depth/ may not include recon/posture.h"])
@@ -65,23 +65,23 @@ class Walk(WithTree):
         super().setUp()
         # Ours, so that the steps are there.
         source = pathlib.Path(__file__).resolve().parent.parent
-        for folder in check_layers.WALKED:
+        for folder in check_layers.FRAME_PATH_FOLDERS:
             for path in (source / folder).glob("*.cpp"):
                 self.write(f"{folder}/{path.name}", path.read_text())
 
     def test_ours_has_each_step_called_in_turn(self):
-        self.assertEqual(list(check_layers.broken_walk(self.top)), [])
+        self.assertEqual(list(check_layers.broken_path(self.top)), [])
 
     def test_a_stage_that_calls_an_earlier_step_is_told(self):
         self.write("tools/tracker/smoothing.cpp", "void Smooth() {\n  ChooseRaw(work);\n}\n")
         self.write("tools/tracker/person.cpp", "void Settle(SkeletonWork& work) {\n  people::DetectPeople(frame);\n}\n")
-        told = "\n".join(check_layers.broken_walk(self.top))
+        told = "\n".join(check_layers.broken_path(self.top))
         self.assertIn("tools/tracker/smoothing.cpp:2: calls ChooseRaw out of turn", told)
         self.assertIn("tools/tracker/person.cpp:2: calls DetectPeople out of turn", told)
 
     def test_a_step_that_nobody_calls_any_more_is_told(self):
         self.write("tools/tracker/track_frame.cpp", "")
-        self.assertIn("nobody calls TrackSkeleton", "\n".join(check_layers.broken_walk(self.top)))
+        self.assertIn("nobody calls TrackSkeleton", "\n".join(check_layers.broken_path(self.top)))
 
 
 if __name__ == "__main__":
