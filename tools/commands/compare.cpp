@@ -74,8 +74,8 @@ void AddPairingOptions(CLI::App& app, CompareArguments& a) {
       ->check(CLI::IsMember({"none", "rigid"}))
       ->capture_default_str();
   app.add_option("--joints", a.joints,
-                 "of a result: all that have a place, or found, without those that say not_tracked "
-                 "and were placed unseen")
+                 "joints of a result that count: all with a position, or found: without those in "
+                 "state not_tracked")
       ->check(CLI::IsMember({"all", "found"}))
       ->capture_default_str();
   app.add_option("--time", a.time,
@@ -83,20 +83,21 @@ void AddPairingOptions(CLI::App& app, CompareArguments& a) {
                  "or seconds to add to the results' times")
       ->capture_default_str();
   app.add_option("--max-offset", a.options.pairing.max_offset_s,
-                 "how far correlation looks, seconds")
+                 "largest offset that correlation considers, seconds")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
 }
 
 void AddReadingOptions(CLI::App& app, tools::CompareOptions& options) {
-  app.add_option("--columns", options.reading.columns, "truth or observed, for files of both")
+  app.add_option("--columns", options.reading.columns,
+                 "truth or observed, for files that hold both")
       ->check(CLI::IsMember({"truth", "vicon", "G", "ground-truth", "observed", "kinect",
                              "estimate", "a2j", "K", "P"}));
   app.add_option("--format", options.reading.format, "read every file in this format")
       ->check(CLI::IsMember(recon::SkeletonFormats()));
-  app.add_option("--only", options.only, "clips whose name holds TEXT (repeat for several)")
+  app.add_option("--only", options.only, "only clips whose name contains TEXT (repeat for several)")
       ->allow_extra_args(false);
-  app.add_option("--skip", options.skip, "no clips whose name holds TEXT (repeat for several)")
+  app.add_option("--skip", options.skip, "no clips whose name contains TEXT (repeat for several)")
       ->allow_extra_args(false);
 }
 
@@ -109,7 +110,7 @@ CLI::Option* DeclareOptions(CLI::App& app, CompareArguments& a) {
           ->expected(0, 1);
   app.add_option("--report", a.report, "write one self-contained page with plots, FILE.html");
   AddReadingOptions(app, a.options);
-  app.add_option("--seed", a.options.seed, "of the bootstrap")->capture_default_str();
+  app.add_option("--seed", a.options.seed, "random seed of the bootstrap")->capture_default_str();
   app.add_flag("--quiet", a.quiet, "no tables on stdout");
   AddMappingOption(app, a.options.reading.mapping_file, false);
   app.footer(Formats() + "\n" + MappingHelp());
@@ -150,7 +151,7 @@ void Tell(const tools::Comparison& comparison, const CompareArguments& a) {
 }  // namespace
 
 int Compare(int argc, char** argv) {
-  CLI::App app("Judge skeletons against the truth, or against each other");
+  CLI::App app("Compare skeletons with the truth, or with each other");
   CompareArguments a;
   const CLI::Option* json = DeclareOptions(app, a);
   Parse(app, argc, argv);

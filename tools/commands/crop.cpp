@@ -21,7 +21,7 @@ int Crop(int argc, char** argv) {
   bool quiet = false;
   app.add_option("DATASET", dataset, "a folder made by ossa render")->required();
   app.add_option("--out", out, "the folder to write: crops.npy, joints.npy, range.npy")->required();
-  app.add_option("--threads", threads, "0: one a core")
+  app.add_option("--threads", threads, "threads; 0: one per core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   app.add_flag("--quiet", quiet, "no progress");

@@ -54,7 +54,7 @@ int Database(int argc, char** argv) {
   app.add_option("--filter", filter, "distance of the filter")
       ->capture_default_str()
       ->check(CLI::IsMember({"sum-squared", "max-joint"}));
-  app.add_option("--seed", mocap_options.seed, "variation of the authored clips")
+  app.add_option("--seed", mocap_options.seed, "random seed of the authored clips' variation")
       ->capture_default_str();
   AddMappingOption(app, mocap_options.mapping_file);
   app.add_flag("--quiet", quiet, "no progress");

@@ -31,13 +31,13 @@ int Show(const char* title, const std::vector<Finding>& findings, bool quiet) {
 
 int Doctor(int argc, char** argv) {
   CLI::App app(
-      "Say what keeps cameras from working here: cameras, rights, drivers, models, and what to do. "
-      "Exit status 1 where something is to be done");
+      "Check what keeps cameras from working: devices, permissions, drivers, models; and say what "
+      "to do. Exit status 1 if something is to be done");
   std::string root = "/";
   bool quiet = false;
   app.add_option("--root", root, "look for cameras in sys/ and dev/ of this folder")
       ->capture_default_str();
-  app.add_flag("--quiet", quiet, "only what is to be done");
+  app.add_flag("--quiet", quiet, "show only what is to be done");
   Parse(app, argc, argv);
   if (!std::filesystem::is_directory(root)) throw InputError(root + ": expected a folder");
   const int open = Show("cameras", CheckCameras(root), quiet) +

@@ -61,7 +61,7 @@ void Declare(CLI::App& app, EvaluateArguments& a) {
       "worst frames");
   app.add_option("--card", a.card,
                  "note the numbers in the model's card under this name (rewrites MODEL)");
-  app.add_option("--every", a.step, "look at every N-th frame")
+  app.add_option("--every", a.step, "evaluate every N-th frame")
       ->capture_default_str()
       ->check(Positive());
   app.add_flag("--quiet", a.quiet, "no progress");

@@ -65,7 +65,7 @@ int Experiment(int argc, char** argv) {
   std::string parameters;
   tools::ExperimentContext context;
   bool quiet = false;
-  app.add_option("NAME", name, "which study")->required();
+  app.add_option("NAME", name, "the study, one of those below")->required();
   app.add_option(
          "--out", context.out,
          "folder for index.html (tables and plots), TABLE.md, summary.json, figures and the "
@@ -75,7 +75,7 @@ int Experiment(int argc, char** argv) {
   app.add_option("--parameters", parameters, "TOML file of the study's parameters");
   app.add_option("--model", context.model, "forest model instead of the shipped one");
   app.add_option("--database", context.database, "posture database instead of the shipped one");
-  app.add_option("--seed", context.seed, "of everything random")->capture_default_str();
+  app.add_option("--seed", context.seed, "random seed")->capture_default_str();
   app.add_option("--threads", context.threads, "cores to use")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

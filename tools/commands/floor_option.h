@@ -17,8 +17,8 @@ class FloorOption {
  public:
   void AddTo(CLI::App& app) {
     app.add_option("--floor", text_,
-                   "of recordings without one: auto, below who stands straight, or a,b,c,d of "
-                   "ax + by + cz + d = 0, metres, a b c upwards");
+                   "floor of recordings that have none: auto, estimated from people who stand "
+                   "straight, or a,b,c,d of ax + by + cz + d = 0, metres, a b c upwards");
   }
   /// Throws UsageError for what is neither.
   void Check() {

@@ -29,15 +29,15 @@ struct Arguments {
 
 void Declare(CLI::App& app, Arguments& a) {
   app.add_option("SKELETONS", a.recordings,
-                 "what each camera's tracker wrote, two or more, in any format that `ossa compare` "
-                 "reads; the result is in the first one's camera space and at its times")
+                 "the skeletons of each camera, two or more files in any format that `ossa "
+                 "compare` reads; the result is in the first one's camera space and at its times")
       ->required();
   app.add_option("--out", a.out, "result: .jsonl .bvh .glb .trc .csv");
   a.fuse.AddTo(app);
   a.write.AddTo(app);
   a.write.AddSurfaceTo(app);
   AddMappingOption(app, a.read.mapping_file, false);
-  app.add_flag("--quiet", a.quiet, "no progress, nothing about cameras that were found");
+  app.add_flag("--quiet", a.quiet, "no progress, no report of camera poses");
   app.footer(MappingHelp());
 }
 
@@ -75,7 +75,7 @@ std::vector<recon::SkeletonSequence> ReadAll(Arguments& a) {
 }  // namespace
 
 int Fuse(int argc, char** argv) {
-  CLI::App app("Make one recording of what several cameras saw of the same people");
+  CLI::App app("Fuse the skeletons that several cameras saw of the same people");
   Arguments a;
   Declare(app, a);
   Parse(app, argc, argv);

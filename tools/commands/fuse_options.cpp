@@ -44,13 +44,13 @@ recon::Extrinsics FindExtrinsics(const FuseArguments& arguments,
 
 void FuseArguments::AddTo(CLI::App& app) {
   app.add_option("--extrinsics", extrinsics,
-                 "where the cameras are: a file, as of `ossa render --cameras`, whose cameras are "
-                 "found by the recordings' names, else by their order; or auto: found by people "
-                 "whom the first camera and each other one see moving")
+                 "camera poses: a file such as `ossa render --cameras` writes, matched by the "
+                 "recordings' names, else by order; or auto: estimated from moving people whom the "
+                 "first camera and each other one see")
       ->capture_default_str();
-  app.add_option("--save-extrinsics", save_extrinsics, "FILE.json: where the cameras are");
+  app.add_option("--save-extrinsics", save_extrinsics, "write the camera poses to FILE.json");
   app.add_option("--max-offset", estimate.max_clock_offset_s,
-                 "of auto: how far clocks may differ, seconds")
+                 "largest clock offset that auto considers, seconds")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 60.0));
 }

@@ -319,7 +319,8 @@ void Show(const SourceArguments& arguments, const std::string& surface, bool is_
 }  // namespace
 
 int Info(int argc, char** argv) {
-  CLI::App app("Say what a file holds: a model's card, a database's clips, a data set's origin");
+  CLI::App app(
+      "Show what a file contains: a model's card, a database's clips, a data set's origin");
   SourceArguments file;
   AddSourceOptions(app, file);
   app.get_option("SOURCE")->description(
@@ -330,11 +331,12 @@ int Info(int argc, char** argv) {
       "options say how depth images are read");
   std::string picture;
   app.add_option("--picture", picture,
-                 "look instead of read: a contact sheet of depth images or of a DATASET, FILE.png, "
-                 "or the card of a forest model, FILE.html");
+                 "write a picture: FILE.png, a contact sheet of depth images or of a DATASET, or "
+                 "FILE.html, the card of a forest model");
   std::string surface;
-  app.add_option("--surface", surface,
-                 ".ossasurface that an .ossaperson or .ossamesh is of (default: the shipped one)");
+  app.add_option(
+      "--surface", surface,
+      ".ossasurface to which an .ossaperson or .ossamesh belongs (default: the shipped one)");
   Parse(app, argc, argv);
   if (!picture.empty() && IsDevice(file.name)) {
     throw UsageError("--picture: " + file.name + ": expected a recording, found a device");

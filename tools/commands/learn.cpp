@@ -55,22 +55,25 @@ struct LearnArguments {
 
 void Declare(CLI::App& app, LearnArguments& a) {
   recon::LearnOptions& options = a.options;
-  app.add_option("--observed", a.observed, "what the sensor said: files, folders or archives")
+  app.add_option("--observed", a.observed, "the sensor's skeletons: files, folders or archives")
       ->required();
-  app.add_option("--truth", a.truth, "what was true, in the same order; joints may be missing")
+  app.add_option("--truth", a.truth, "the true skeletons, in the same order; joints may be missing")
       ->required();
   app.add_option("--out", a.out, "the .ossagp file to write")->required();
-  app.add_option("--seed", options.mixture.seed, "of the clustering")->capture_default_str();
-  app.add_option("--regions", options.mixture.regions, "Q of liu-2016")
+  app.add_option("--seed", options.mixture.seed, "random seed of the clustering")
+      ->capture_default_str();
+  app.add_option("--regions", options.mixture.regions, "regions of liu-2016 (Q in the paper)")
       ->capture_default_str()
       ->check(CLI::Range(1, recon::LearnOptions::kMostRegions));
-  app.add_option("--samples", options.mixture.samples, "S of liu-2016")
+  app.add_option("--samples", options.mixture.samples,
+                 "samples per region of liu-2016 (S in the paper)")
       ->capture_default_str()
       ->check(CLI::Range(2, recon::LearnOptions::kMostSamples));
-  app.add_option("--pairs", options.most_pairs, "at most, for liu-2016, full-gp and exemplar")
+  app.add_option("--pairs", options.most_pairs,
+                 "maximum number of pairs for liu-2016, full-gp and exemplar")
       ->capture_default_str();
   app.add_flag("--correction-only", a.correction_only,
-               "only what best uses: quick to learn, a quarter of a megabyte");
+               "learn only what best uses: fast, a quarter of a megabyte");
   app.add_flag("--quiet", a.quiet, "no progress");
   AddMappingOption(app, a.reading.mapping_file);
 }

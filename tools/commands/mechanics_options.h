@@ -34,18 +34,21 @@ struct MechanicsOptions {
 };
 
 inline void AddMechanicsOptions(CLI::App& app, MechanicsOptions& options) {
-  app.add_option("--physics", options.physics, "let a mechanical character follow (default off)")
+  app.add_option("--physics", options.physics,
+                 "let a physical character follow the postures (default off)")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option(
       "--scene", options.scene,
-      "FILE.toml of boxes, balls and rules: all people in one mechanical world with them");
-  app.add_option("--control", options.control, "of that character: pd or motor (default pd)")
+      "FILE.toml of boxes, balls and rules: all people in one physics simulation with them");
+  app.add_option("--control", options.control,
+                 "controller of the character: pd or motor (default pd)")
       ->check(CLI::IsMember({"pd", "motor"}))
       ->each([&options](const std::string& value) { options.build.motors = value == "motor"; });
   app.add_flag("--hinges", options.build.hinges,
-               "its elbows and knees bend about one axis (needs --physics on or --scene)");
-  app.add_flag("--joint-limits", options.build.joint_limits,
-               "its joints keep to the ranges that people's have (needs --physics on or --scene)");
+               "elbows and knees of the character are hinges (needs --physics on or --scene)");
+  app.add_flag(
+      "--joint-limits", options.build.joint_limits,
+      "joints of the character keep to human ranges of motion (needs --physics on or --scene)");
 }
 
 }  // namespace ossa::commands

@@ -109,8 +109,8 @@ struct BonesOption {
   bool of_recording() const { return from == "recording"; }
   void AddTo(CLI::App& app) {
     app.add_option("--bones", from,
-                   "how long a person's bones are by: so-far, the frames until then (they may "
-                   "change), or recording, all frames (the same lengths in each of them)")
+                   "estimate bone lengths from the frames so far (they may change) or from the "
+                   "whole recording (constant lengths)")
         ->capture_default_str()
         ->check(CLI::IsMember({"so-far", "recording"}));
   }

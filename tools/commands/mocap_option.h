@@ -10,8 +10,8 @@ namespace ossa::commands {
 /// --amc-fps of a command that reads motion.
 inline void AddAmcRateOption(CLI::App& app, recon::MocapOptions& options) {
   app.add_option("--amc-fps", options.amc_hz,
-                 "frames a second of AMC files, which do not say (default 120, as CMU and HDM05 "
-                 "publish)")
+                 "frame rate of AMC files, which do not state it, Hz (default 120, as CMU and "
+                 "HDM05 publish)")
       ->check(CLI::Range(1.0, 1e4));
 }
 

@@ -121,10 +121,9 @@ InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer) {
 }
 
 void WriteOptions::AddTo(CLI::App& app) {
-  app.add_option(
-         "--bvh-names", names,
-         "of a .bvh: sdk (default), or a humanoid that other programs map by themselves: cmu, "
-         "mixamo, vrm; of a .glb: vrm (default), cmu or mixamo")
+  app.add_option("--bvh-names", names,
+                 "joint names of a .bvh: sdk (default), or a humanoid that other programs "
+                 "recognise: cmu, mixamo, vrm; of a .glb: vrm (default), cmu or mixamo")
       ->check(CLI::IsMember({"sdk", "cmu", "mixamo", "vrm"}));
   app.add_option("--mesh", mesh,
                  ".ossamesh of 'ossa surface', the skin of a .glb, or none (default: the shipped "
@@ -132,9 +131,9 @@ void WriteOptions::AddTo(CLI::App& app) {
 }
 
 void WriteOptions::AddSurfaceTo(CLI::App& app) {
-  app.add_option("--surface", surface,
-                 ".ossasurface of 'ossa surface' that --mesh is the skin of (default: the shipped "
-                 "one)")
+  app.add_option(
+         "--surface", surface,
+         ".ossasurface of 'ossa surface' to which --mesh belongs (default: the shipped one)")
       ->needs("--mesh");
 }
 

@@ -67,7 +67,7 @@ int PackNetwork(int argc, char** argv) {
   app.add_option("WEIGHTS", weights, "the .npy of tools/learning/train_pose_network.py")
       ->required();
   app.add_option("--out", out, "the .ossanet file to write")->required();
-  app.add_option("--people", people, "that it was trained on, for `ossa info`");
+  app.add_option("--people", people, "number of people it was trained on, shown by `ossa info`");
   Parse(app, argc, argv);
   CheckNotOtherKind("--out", out, ".ossanet");
   CheckOutputs({out}, {weights});

@@ -53,15 +53,15 @@ struct PriorArguments {
 
 void AddNetworkOptions(CLI::App& app, tools::PriorNetworkOptions& network) {
   app.add_option("--hidden", network.hidden,
-                 "units of the network that corrects what the modes say; 0: none")
+                 "hidden units of the network that corrects the modes' prediction; 0: none")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  app.add_option("--epochs", network.epochs, "times that the network looks at each example")
+  app.add_option("--epochs", network.epochs, "training epochs of the network")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   app.add_option("--walks", network.walks,
-                 "through each motion of weight 1 while the network learns, other joints hidden "
-                 "each time")
+                 "passes through each motion of weight 1 in the network's training, with other "
+                 "joints hidden each time")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
 }
@@ -69,18 +69,18 @@ void AddNetworkOptions(CLI::App& app, tools::PriorNetworkOptions& network) {
 void DeclareOptions(CLI::App& app, PriorArguments& a) {
   AddMocapOption(app, a.mocap, a.mocap_options);
   app.add_option("--out", a.out, "the .ossaprior file to write")->required();
-  app.add_option("--modes", a.options.modes, "independent ways of moving that are told apart")
+  app.add_option("--modes", a.options.modes, "number of independent modes of motion")
       ->capture_default_str()
       ->check(CLI::Range(1, recon::kBoneDims));
   app.add_option("--authored-weight", a.authored_weight,
-                 "of an authored frame beside a captured one")
+                 "weight of an authored frame relative to a captured one")
       ->capture_default_str()
       ->check(CLI::Range(0.001, 100.0));
   AddNetworkOptions(app, a.network);
   app.add_option("--seed", a.mocap_options.seed,
-                 "variation of the authored clips, and what is hidden from the network")
+                 "random seed of the authored clips' variation and of the hidden joints")
       ->capture_default_str();
-  app.add_option("--threads", a.network.threads, "0: one a core")
+  app.add_option("--threads", a.network.threads, "threads; 0: one per core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   app.add_flag("--quiet", a.quiet, "no progress");
@@ -114,7 +114,9 @@ recon::PosturePrior LearnNetwork(recon::PosturePrior prior,
 }  // namespace
 
 int Prior(int argc, char** argv) {
-  CLI::App app("Learn from motion capture how people hold themselves and how fast that changes");
+  CLI::App app(
+      "Learn a pose prior from motion capture: which postures are likely, and how fast they "
+      "change");
   PriorArguments a;
   DeclareOptions(app, a);
   Parse(app, argc, argv);

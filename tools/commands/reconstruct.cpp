@@ -93,39 +93,42 @@ bool GoesToFolder(const ReconstructArguments& a, const std::vector<recon::Skelet
 void AddMethodOptions(CLI::App& app, ReconstructArguments& a) {
   auto methods = recon::ReconstructionMethods();
   methods.emplace_back(kButterworth);
-  app.add_option("--method", a.options.method, "how the postures are made whole")
+  app.add_option("--method", a.options.method, "method of reconstruction")
       ->capture_default_str()
       ->check(CLI::IsMember(methods));
-  app.add_option("--database", a.files.database,
-                 "posture database; without it the shipped one, of best the shipped prior");
-  app.add_option("--prior", a.files.prior, ".ossaprior of 'ossa prior', for best");
   app.add_option(
-      "--learned", a.files.learned,
-      "what `ossa learn` wrote, .ossagp, or none; without it best takes off what is "
-      "known of the errors of a Kinect v2 or the refinement cascade where the recording is theirs");
-  app.add_option("--seed", a.options.seed, "of the stochastic search")->capture_default_str();
-  app.add_option("--cutoff", a.cutoff_hz, "of butterworth, Hz")
+      "--database", a.files.database,
+      "posture database, .ossadb (default: the shipped one; best uses the shipped prior instead)");
+  app.add_option("--prior", a.files.prior,
+                 ".ossaprior of 'ossa prior', for best (default: the shipped one)");
+  app.add_option("--learned", a.files.learned,
+                 ".ossagp of 'ossa learn', or none (default with best: the shipped correction if "
+                 "the recording is a Kinect v2's or the refinement cascade's)");
+  app.add_option("--seed", a.options.seed, "random seed of the stochastic search")
+      ->capture_default_str();
+  app.add_option("--cutoff", a.cutoff_hz, "cut-off frequency of butterworth, Hz")
       ->capture_default_str()
       ->check(Positive());
 }
 
 void AddLocalPcaOptions(CLI::App& app, ReconstructArguments& a) {
   recon::LocalPcaOptions& pca = a.options.local_pca;
-  app.add_option("--solver", pca.solver, "of shum-2013, plantard-2016: stochastic or ceres")
+  app.add_option("--solver", pca.solver,
+                 "optimiser of shum-2013, plantard-2016: stochastic or ceres")
       ->capture_default_str()
       ->check(CLI::IsMember({"stochastic", "ceres"}));
   app.add_option("--neighbours", pca.neighbours, "K of the local PCA of shum-2013, plantard-2016")
       ->capture_default_str()
       ->check(CLI::Range(2, 100000));
   const std::tuple<const char*, int*, const char*> counts[] = {
-      {"--dimensions", &pca.dimensions, "of that PCA"},
-      {"--steps", &pca.steps, "of the search in its space"},
-      {"--samples", &pca.samples, "a step of the stochastic search"}};
+      {"--dimensions", &pca.dimensions, "dimensions of that PCA"},
+      {"--steps", &pca.steps, "steps of the search in its space"},
+      {"--samples", &pca.samples, "samples per step of the stochastic search"}};
   for (const auto& [name, value, meaning] : counts) {
     app.add_option(name, *value, meaning)->capture_default_str()->check(CLI::Range(1, 100000));
   }
   app.add_option("--weights", a.weights,
-                 "control, style, kinematics, continuity (Shum 2013 eq. 15)")
+                 "weights of control, style, kinematics, continuity (Shum 2013 eq. 15)")
       ->expected(4)
       ->delimiter(',');
   app.add_flag("--no-reliability", a.no_reliability, "method B of Shum 2013");
@@ -138,8 +141,8 @@ void AddLocalPcaOptions(CLI::App& app, ReconstructArguments& a) {
 
 void AddLagOption(CLI::App& app, ReconstructArguments& a) {
   app.add_option("--lag", a.lag,
-                 "frames after each that smooth it: 0 to 2, or whole, as many before and after as "
-                 "help (default: whole with best, else 0)")
+                 "later frames used to smooth each frame: 0 to 2, or whole, the whole recording "
+                 "(default: whole with best, else 0)")
       ->check(CLI::IsMember({"0", "1", "2", "whole"}));
 }
 
@@ -156,7 +159,9 @@ void AddDynamicsOptions(CLI::App& app, ReconstructArguments& a) {
   app.add_option("--dynamics", a.dynamics,
                  "inverse dynamics of the character as CSV: torques of joints, forces of the "
                  "ground, centre of pressure (needs --physics on and a floor)");
-  app.add_option("--mass", a.mass_kg, "of the person, kg, for --dynamics; by the bones if left out")
+  app.add_option(
+         "--mass", a.mass_kg,
+         "mass of the person, kg, for --dynamics (default: estimated from the bone lengths)")
       ->check(CLI::Range(3.0, 400.0));
 }
 
@@ -215,9 +220,9 @@ void DeclareOptions(CLI::App& app, ReconstructArguments& a) {
   AddDynamicsOptions(app, a);
   AddMappingOption(app, a.read.mapping_file, false);
   app.add_flag("--quiet", a.quiet, "no progress");
-  app.footer(
-      std::string("Options that the method does not read are refused; of files it is said.\n") +
-      MappingHelp());
+  app.footer(std::string("Options that the method does not read are refused; files that it does "
+                         "not read cause a warning.\n") +
+             MappingHelp());
 }
 
 void CheckLocalPca(const CLI::App& app, const ReconstructArguments& a) {

@@ -54,7 +54,7 @@ RecordOptions ParseOptions(int argc, char** argv) {
   app.add_option("--out", options.out, "the recording, FILE.oni, or a folder with --fakenect")
       ->required();
   app.add_option("--seconds", options.seconds,
-                 "stop after so long (default: at the end, or Ctrl-C)")
+                 "stop after this time (default: at the end, or Ctrl-C)")
       ->check(Positive());
   AddDeviceOptions(app, options.source);
   app.add_flag(

@@ -37,37 +37,34 @@ void AddFileOptions(CLI::App& app, RefineArguments& a) {
       "--model", a.model_path,
       "forest model, .ossa (default: the shipped one, of people seen from the ceiling that for "
       "them)");
-  app.add_option(
-      "--after", a.after,
-      "a .ossarefine: its stages come first, one more is learned from where they end; if "
-      "it estimates bones, a bone-conditioned one (best on other people; the file "
-      "counts those of its last stage)");
+  app.add_option("--after", a.after,
+                 "a .ossarefine to which one more stage is added; if it estimates bone lengths, a "
+                 "bone-conditioned one (best trained on other people)");
   app.add_flag("--bones", a.bones,
-               "learn no stage but how long people's bones are, from where the stages of --after "
-               "put the joints");
+               "train the estimate of bone lengths instead of a stage, from the joints of --after");
 }
 
 void AddLearningOptions(CLI::App& app, tools::RefinementStageOptions& options) {
   app.add_option("--hidden", options.hidden,
-                 "units of each network's first layer, half as many of its second")
+                 "units of each network's first layer; the second has half as many")
       ->capture_default_str()
       ->check(CLI::Range(2, 1024));
-  app.add_option("--epochs", options.epochs, "times that every person is read, from each place")
+  app.add_option("--epochs", options.epochs, "training epochs")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   app.add_option("--shifted", options.shifted,
-                 "how often each person is read from places near where the joints are put, "
-                 "besides from there")
+                 "shifted copies of each sample, beside the one at the joint's position")
       ->capture_default_str()
       ->check(CLI::Range(0, 100));
-  app.add_option("--shift", options.shift_m, "how far off such a place is, metres along each axis")
+  app.add_option("--shift", options.shift_m,
+                 "standard deviation of the shift, metres along each axis")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.5));
-  app.add_option("--rate", options.rate, "of the learning, at its highest")
+  app.add_option("--rate", options.rate, "peak learning rate")
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 0.1));
-  app.add_option("--seed", options.seed, "of the learning")->capture_default_str();
-  app.add_option("--threads", options.threads, "0: one a core")
+  app.add_option("--seed", options.seed, "random seed of the training")->capture_default_str();
+  app.add_option("--threads", options.threads, "threads; 0: one per core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
 }

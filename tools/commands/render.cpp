@@ -47,15 +47,19 @@ struct Arguments {
 
 void DeclareSet(CLI::App& app, Arguments& a) {
   app.add_option("--mocap", a.mocap,
-                 "folders of motion, or the words 'authored' (upright) and 'authored-floor' "
-                 "(lying, kneeling, "
-                 "crawling, crouching, arms behind the back, turning fast); repeat for more")
+                 "folders of motion capture, or the words 'authored' (upright) and "
+                 "'authored-floor' (lying, kneeling, crawling, crouching, arms behind the back, "
+                 "turning fast); repeat for more")
       ->required()
       ->allow_extra_args(false);
   AddAmcRateOption(app, a.motion);
-  app.add_option("--out", a.out, "the DATASET's folder; an interrupted run goes on")->required();
-  app.add_option("--frames", a.frames, "how many")->required()->check(CLI::Range(1, 10'000'000));
-  app.add_option("--seed", a.seed, "frame i depends on the seed and i only")->capture_default_str();
+  app.add_option("--out", a.out, "folder of the DATASET; an interrupted run is resumed")
+      ->required();
+  app.add_option("--frames", a.frames, "number of frames")
+      ->required()
+      ->check(CLI::Range(1, 10'000'000));
+  app.add_option("--seed", a.seed, "random seed; frame i depends only on it and on i")
+      ->capture_default_str();
   app.add_option("--size", a.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
 }
 
@@ -65,7 +69,7 @@ void DeclarePeople(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"random", "any", "average"}))
       ->capture_default_str();
   app.add_option("--clothes", a.clothes,
-                 "of random bodies: fitting; any: also what hangs and folds (T-shirts, coats, "
+                 "clothes of random bodies: fitting; any: also loose ones (T-shirts, coats, "
                  "skirts, hoods), long hair, hats, bags and gloves")
       ->check(CLI::IsMember({"fitting", "any"}))
       ->capture_default_str();
@@ -73,32 +77,34 @@ void DeclarePeople(CLI::App& app, Arguments& a) {
 
 void DeclareScene(CLI::App& app, Arguments& a) {
   app.add_option("--noise", a.noise,
-                 "the sensor: structured light (kinect-v1, xtion), time of flight (kinect-v2, "
+                 "sensor model: structured light (kinect-v1, xtion), time of flight (kinect-v2, "
                  "azure), active stereo (d4xx); any: another in each frame")
       ->check(CLI::IsMember({"kinect-v1", "xtion", "kinect-v2", "azure", "d4xx", "any", "none"}))
       ->capture_default_str();
   app.add_option("--view", a.view,
-                 "where people stand and face; ceiling: seen from 2.2 to 4 m above the floor")
+                 "camera view: front (people face it within 60 degrees, 1.6 to 4 m away), any "
+                 "(every side, height, distance and crop), near (0.75 to 1.75 m away, cropped) or "
+                 "ceiling (2.2 to 4 m above the floor)")
       ->check(CLI::IsMember({"front", "any", "near", "ceiling"}))
       ->capture_default_str();
   app.add_option("--occluders", a.occluders,
-                 "objects, part 32: held in the hands, standing in front (scene), either at times "
+                 "objects, part 32: held in the hands, standing in front (scene), sometimes either "
                  "(any); held-up: cloth, boards, paper, boxes before the body; desk: forearms on a "
                  "desk or a chair's arms; wheelchair, crutches: sitting or walking with them; all: "
-                 "each of them at times")
+                 "sometimes each of them")
       ->check(CLI::IsMember(
           {"none", "held", "scene", "any", "held-up", "desk", "wheelchair", "crutches", "all"}))
       ->capture_default_str();
   app.add_option("--poses", a.poses,
-                 "spread: seldom ones nearly as often as common ones, arms anywhere at times; "
-                 "natural: as often as in the motion; any: as spread, and one in four frames any "
-                 "posture within the limits of joints")
+                 "spread: rare poses nearly as often as common ones, arms sometimes at random; "
+                 "natural: as often as in the motion; any: as spread, and in one of four frames "
+                 "any posture within the joint limits")
       ->check(CLI::IsMember({"spread", "natural", "any"}))
       ->capture_default_str();
-  app.add_option("--people", a.people, "in each frame")
+  app.add_option("--people", a.people, "people in each frame")
       ->check(CLI::Range(1, 6))
       ->capture_default_str();
-  app.add_option("--split", a.split, "bodies and cameras of 'test' are never in 'train'")
+  app.add_option("--split", a.split, "bodies and cameras of 'test' never occur in 'train'")
       ->check(CLI::IsMember({"train", "test"}))
       ->capture_default_str();
   app.add_option("--background", a.background,
@@ -109,17 +115,16 @@ void DeclareScene(CLI::App& app, Arguments& a) {
 }
 
 void DeclareCamera(CLI::App& app, Arguments& a) {
-  app.add_option(
-         "--camera", a.camera,
-         "intrinsics; 'generic' varies them; 'any': images of 100 to 1280 pixels, 45 to 120 "
-         "degrees wide, some shrunk (--size does not count); both need packed form")
+  app.add_option("--camera", a.camera,
+                 "intrinsics; 'generic' varies them; 'any': images of 100 to 1280 pixels, 45 to "
+                 "120 degrees wide, some shrunk (--size is ignored); both need --format packed")
       ->check(CLI::IsMember({"kinect-v1", "generic", "any"}))
       ->capture_default_str();
   app.add_option("--fov", a.fov, "horizontal field of view, degrees [the camera's own]")
       ->check(CLI::Range(20.0, 150.0));
   app.add_option("--shrink", a.shrink,
-                 "the sensor's images are so many times larger and shrunk to --size by nearest "
-                 "neighbour")
+                 "render the sensor's images this many times larger and shrink them to --size by "
+                 "nearest neighbour")
       ->check(CLI::Range(1.0, 8.0))
       ->capture_default_str();
 }
@@ -132,8 +137,8 @@ void DeclareFiles(CLI::App& app, Arguments& a) {
   app.add_flag("--sequence", a.sequence,
                "one continuous clip at 30 Hz: one body before one camera, frames in order");
   app.add_option("--cameras", a.cameras,
-                 "of a --sequence: so many cameras around the same people, each with a data set of "
-                 "its own of the same moments, OUT/camera_0 and so on, and OUT/extrinsics.json")
+                 "number of cameras around the people of a --sequence, each with a data set of the "
+                 "same moments, OUT/camera_0 and so on, and OUT/extrinsics.json")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
   AddMappingOption(app, a.mapping);

@@ -69,25 +69,24 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
       ->required();
   std::string presets;
   for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");
-  app.add_option(
-      "--camera", arguments.camera,
-      presets +
-          "or fx,fy,cx,cy in pixels, or a file that states it: camera.json, a "
-          "calibration of OpenCV's or ROS's (.yaml, .xml, .json), or its matrix alone (.txt) "
-          "(default: the source's own, else by its images' size)");
+  app.add_option("--camera", arguments.camera,
+                 presets +
+                     "or fx,fy,cx,cy in pixels, or a file: camera.json, a calibration of OpenCV or "
+                     "ROS (.yaml, .xml, .json), or the camera matrix alone (.txt) (default: the "
+                     "source's own, else by the image size)");
   app.add_option("--depth-scale", arguments.depth_scale,
-                 "units to the metre of a recording's depths (default: its own, else 1000, "
-                 "millimetres)")
+                 "depth units per metre of a recording (default: its own, else 1000, millimetres)")
       ->check(CLI::Range(1e-3, 1e6));
-  app.add_option("--depth-format", arguments.depth_format,
-                 "what the numbers are: plain, swapped (bytes), inverted (65535 stands for 0), "
-                 "inverted:FROM (FROM does) or disparity (Kinect v1, 11 bits)");
+  app.add_option(
+      "--depth-format", arguments.depth_format,
+      "encoding of the depths: plain (default), swapped (bytes), inverted (65535 stands for 0 mm), "
+      "inverted:FROM (FROM stands for 0 mm) or disparity (Kinect v1, 11 bits)");
   app.add_option("--fps", arguments.fps,
-                 "frames a second of a recording (default: its own times, else 30)")
+                 "frame rate of a recording, Hz (default: its own times, else 30)")
       ->check(CLI::Range(1e-3, 1e4));
   app.add_option("--rotate", arguments.rotate,
-                 "degrees by which the images must be turned clockwise for people to stand in "
-                 "them, or auto (default); what comes out stays in the camera's own space")
+                 "degrees by which the images must be turned clockwise for people to stand "
+                 "upright, or auto (default); results stay in the camera's own space")
       ->check(CLI::IsMember({"auto", "0", "90", "180", "270"}));
 }
 
@@ -128,10 +127,10 @@ void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,
 
 void AddDeviceOptions(CLI::App& app, SourceArguments& arguments) {
   app.add_option("--wait", arguments.wait_s,
-                 "wait so many seconds for a device to be plugged in (default 0)")
+                 "seconds to wait for a device to be plugged in (default 0)")
       ->check(CLI::Range(0.0, kLongest_s));
   app.add_option("--patience", arguments.patience_s,
-                 "give up on a device that is unplugged or silent for so many seconds (default 5)")
+                 "seconds after which a device that is unplugged or silent is given up (default 5)")
       ->check(CLI::Range(1e-3, kLongest_s));
 }
 

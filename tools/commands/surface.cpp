@@ -36,16 +36,17 @@ void Declare(CLI::App& app, SurfaceArguments& a) {
   AddMocapOption(app, a.mocap, a.mocap_options);
   app.add_option("--out", a.out, "the .ossasurface file to write")->required();
   app.add_option("--mesh", a.mesh, "the .ossamesh file to write: its skin as triangles, for .glb");
-  app.add_option("--triangles", a.options.triangles, "of --mesh, about")
+  app.add_option("--triangles", a.options.triangles, "approximate number of triangles of --mesh")
       ->capture_default_str()
       ->check(CLI::Range(200, 20000));
-  app.add_option("--points", a.options.points, "places on the skin")
+  app.add_option("--points", a.options.points, "points on the skin")
       ->capture_default_str()
       ->check(CLI::Range(size_t{50}, recon::BodySurface::kMostPoints));
-  app.add_option("--people", a.options.people, "dressed bodies that shape is learned from")
+  app.add_option("--people", a.options.people, "dressed bodies from which shape is learned")
       ->capture_default_str()
       ->check(CLI::Range(50, 5000));
-  app.add_option("--seed", a.options.seed, "of their shapes and clothes")->capture_default_str();
+  app.add_option("--seed", a.options.seed, "random seed of their shapes and clothes")
+      ->capture_default_str();
   app.add_flag("--quiet", a.quiet, "no progress");
   AddMappingOption(app, a.mocap_options.mapping_file);
 }
@@ -86,7 +87,7 @@ recon::BodyMesh LearnShape(const SurfaceArguments& a,
 }  // namespace
 
 int Surface(int argc, char** argv) {
-  CLI::App app("Make the body that the surface fit poses: of MPFB shapes, clothes and motion");
+  CLI::App app("Make the body model of the surface fit from MPFB shapes, clothes and motion");
   SurfaceArguments a;
   Declare(app, a);
   Parse(app, argc, argv);

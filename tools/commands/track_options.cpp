@@ -17,52 +17,52 @@ namespace {
 
 void AddModelOptions(CLI::App& app, tracker::ModelFiles& files) {
   app.add_option("--model", files.forest, "forest model, .ossa (default: the shipped one)");
-  app.add_option("--database", files.database,
-                 "posture database, .ossadb (default: the shipped one, of best the shipped prior)");
+  app.add_option(
+      "--database", files.database,
+      "posture database, .ossadb (default: the shipped one; best uses the shipped prior instead)");
   app.add_option("--prior", files.prior,
                  ".ossaprior of 'ossa prior', for best (default: the shipped one)");
   app.add_option("--learned", files.learned,
-                 ".ossagp of 'ossa learn', for the methods that learn, or none (default: with best "
-                 "and the shipped model the shipped one)");
+                 ".ossagp of 'ossa learn', for the methods that learn, or none (default: the "
+                 "shipped one, with best and the shipped model)");
   app.add_option("--refinement,--look", files.refinement,
                  ".ossarefine of 'ossa refine', for best and --posture refined, or none (default: "
-                 "with best and the shipped model the shipped one); one that was learned on people "
-                 "seen from the ceiling is for cameras there");
-  app.add_option(
-      "--pose-network", files.pose_network,
-      ".ossanet of tools/train_pose_network, or shipped: a network that reads the joints "
-      "off the whole person has its say in refined joints, but for cameras under the ceiling; or "
-      "none (default: shipped beside the shipped refinement)");
+                 "the shipped one, with best and the shipped model); one that was trained on "
+                 "people seen from the ceiling is used for cameras there only");
+  app.add_option("--pose-network", files.pose_network,
+                 ".ossanet of tools/train_pose_network, shipped, or none: a network that reads all "
+                 "joints off the whole person, fused with the refined joints, except under the "
+                 "ceiling (default: shipped, with the shipped refinement)");
   app.add_option("--surface", files.surface,
                  ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
 }
 
 void AddFitOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--fit", options.fit,
-                 "fit the body's surface to the depth image, from the refined joints on: on or off "
-                 "(default: on where there are refined joints)")
+                 "fit a body's surface to the depth image, starting from the refined joints: on or "
+                 "off (default: on if there are refined joints)")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--person", options.people,
-                 "FILE.ossaperson of --save-person: the shape of the first person who comes into "
-                 "view (id 1) is known from the first frame on; given again, of the next")
+                 "FILE.ossaperson of --save-person: body shape of the first person who comes into "
+                 "view (id 1); given again, of the next one")
       ->allow_extra_args(false);
   app.add_option("--save-person", options.save_person,
-                 "FILE.ossaperson: at the end, the shape of the person who was fitted in most "
-                 "frames, with what --person told of them");
+                 "write FILE.ossaperson at the end: body shape of the person who was fitted in "
+                 "most frames, updated from --person");
 }
 
 void AddPostureOptions(CLI::App& app, TrackOptions& options) {
-  app.add_option("--method", options.tracker.method, "how postures are completed (default best)")
+  app.add_option("--method", options.tracker.method, "method of reconstruction (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   AddMechanicsOptions(app, options.mechanics);
   options.bones.AddTo(app);
   app.add_option(
          "--smoothing", options.smoothing,
-         "preset of the filter (default: what goes with the method, none for those that filter)")
+         "preset of the joint filter (default: depends on the method; none for those that filter)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
-  app.add_option("--lag", options.lag,
-                 "frames that may come before a frame's bodies are told, smoothed by them: 0 to 2 "
-                 "(default: 2 of recordings with best, else 0)")
+  app.add_option(
+         "--lag", options.lag,
+         "frames of delay, used to smooth: 0 to 2 (default: 2 for recordings with best, else 0)")
       ->check(CLI::Range(0, 2));
 }
 
@@ -70,16 +70,16 @@ void AddViewpointOptions(CLI::App& app, TrackOptions& options) {
   tracker::TrackerOptions& t = options.tracker;
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
       ->check(CLI::IsMember({"standing", "seated"}));
-  app.add_option("--mount", options.mount,
-                 "where the camera is: level, ceiling (2.2 to 4 m up, looking down) or auto "
-                 "(default: auto)")
+  app.add_option(
+         "--mount", options.mount,
+         "mounting of the camera: level, ceiling (2.2 to 4 m up, looking down) or auto (default)")
       ->check(CLI::IsMember({"auto", "level", "ceiling"}));
   app.add_flag("--near", t.near_range, "near range: people within 3 m of a level camera only");
-  app.add_option("--users", t.max_users, "most people at a time, 1 to 6 (default 6)")
+  app.add_option("--users", t.max_users, "maximum number of people, 1 to 6 (default 6)")
       ->check(CLI::Range(1, 6));
   app.add_option("--threads", t.threads, "threads for several people (default 1)")
       ->check(CLI::Range(1, 256));
-  app.add_option("--seed", t.seed, "of the methods that draw samples (default 1)");
+  app.add_option("--seed", t.seed, "random seed of the methods that draw samples (default 1)");
 }
 
 // What --posture called them in versions before.
@@ -201,18 +201,19 @@ void AddSkeletonOptions(CLI::App& app, TrackOptions& options) {
                  "skeletons: FILE.jsonl, .bvh, .trc or .csv; .glb: people in motion, skinned");
   app.add_option(
          "--posture", options.posture,
-         "what --out gets: final, reconstructed, fitted (the body whose surface explains the "
-         "depth, with standard deviations), refined (raw after the refinement cascade) or raw")
+         "joints to write: final (default), reconstructed, fitted (of the body fitted to the depth "
+         "image, with standard deviations), refined (after the refinement cascade) or raw")
       ->transform(CLI::Transformer(kOldPostures).description(""))
       ->check(CLI::IsMember({"final", "reconstructed", "fitted", "refined", "raw"}));
   options.write.AddTo(app);
 }
 
 void AddOtherOutputs(CLI::App& app, TrackOptions& options) {
-  app.add_option("--json-stats", options.json_stats,
-                 "milliseconds a stage, frames a second, memory, FILE.json ('-': stdout)");
+  app.add_option(
+      "--json-stats", options.json_stats,
+      "write milliseconds per stage, frames per second and memory to FILE.json ('-': stdout)");
   app.add_option("--trace", options.trace,
-                 "FILE.jsonl: a line a frame with every piece of the scene, and the rule that "
+                 "FILE.jsonl: a line per frame with every region of the scene, and the rule that "
                  "decided whether it is a person");
   app.add_option("--picture", options.picture,
                  "FILE.png of one frame: depth, parts, joints, skeleton");
@@ -222,7 +223,7 @@ void AddOtherOutputs(CLI::App& app, TrackOptions& options) {
                  "udp://HOST:PORT (JSONL); repeat for more")
       ->allow_extra_args(false);
   app.add_flag("--view", options.view,
-               "show it in browsers while it runs, fitted bodies in the skin of --mesh");
+               "serve a live view for browsers, fitted bodies in the skin of --mesh");
   AddPageOptions(app, options.page);
   app.add_flag("--quiet", options.quiet, "no progress");
 }
@@ -230,12 +231,12 @@ void AddOtherOutputs(CLI::App& app, TrackOptions& options) {
 void DeclareOptions(CLI::App& app, TrackOptions& options) {
   AddSourceOptions(app, options.source);
   app.add_option("MORE", options.more_sources,
-                 "further recordings of the same people at the same time, by other cameras: fused, "
+                 "further recordings of the same people at the same time by other cameras: fused, "
                  "in the first one's camera space and at its times");
   options.fuse.AddTo(app);
   AddSkeletonOptions(app, options);
   AddTrackerOptions(app, options);
-  app.add_option("--frames", options.frames, "stop after so many frames")->check(Positive());
+  app.add_option("--frames", options.frames, "stop after this number of frames")->check(Positive());
   AddDeviceOptions(app, options.source);
   AddOtherOutputs(app, options);
 }

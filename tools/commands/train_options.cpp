@@ -48,40 +48,41 @@ void AddForestOptions(CLI::App* app, forest::TrainOptions* options) {
   app->add_option("--depth", o.depth, "levels of splits")
       ->capture_default_str()
       ->check(CLI::Range(1, 24));
-  app->add_option("--candidates", o.candidates, "offset pairs tried a node")
+  app->add_option("--candidates", o.candidates, "offset pairs tried per node")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app->add_option("--thresholds", o.thresholds, "thresholds a candidate")
+  app->add_option("--thresholds", o.thresholds, "thresholds per candidate")
       ->capture_default_str()
       ->check(CLI::Range(2, 63));
-  app->add_option("--pixels", o.pixels, "pixels an image and tree, balanced over its classes")
+  app->add_option("--pixels", o.pixels, "pixels per image and tree, balanced over the classes")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
   app->add_option("--refill-pixels", o.refill_pixels,
-                  "pixels an image that fill leaves and votes (0: as --pixels)")
+                  "pixels per image that fill the leaves and votes (0: as --pixels)")
       ->capture_default_str()
       ->check(CLI::Range(0, 100000));
   app->add_option("--box", o.box_pixel_m, "longest offset, pixel metres at f = 575")
       ->capture_default_str()
       ->check(CLI::Range(1, 1999));
-  app->add_option("--offsets", o.offsets, "distinct offsets a node, candidates are pairs of them")
+  app->add_option("--offsets", o.offsets, "distinct offsets per node; candidates are pairs of them")
       ->capture_default_str()
       ->check(CLI::Range(2, 4096));
 }
 
 void AddNodeOptions(CLI::App* app, forest::TrainOptions* options) {
   forest::TrainOptions& o = *options;
-  app->add_option("--node-pixels", o.node_pixels, "pixels looked at in a node, at most")
+  app->add_option("--node-pixels", o.node_pixels, "maximum number of pixels evaluated per node")
       ->capture_default_str()
       ->check(CLI::Range(100, 1000000));
-  app->add_option("--min-node-pixels", o.min_node_pixels, "smaller nodes are leaves")
+  app->add_option("--min-node-pixels", o.min_node_pixels, "nodes with fewer pixels are leaves")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000000000));
-  app->add_option("--min-gain", o.min_gain_bits, "splits that gain fewer bits a pixel are not made")
+  app->add_option("--min-gain", o.min_gain_bits,
+                  "minimum information gain of a split, bits per pixel")
       ->capture_default_str()
       ->check(NotNegative());
   app->add_option("--context-share", o.context_share,
-                  "share of the upper nodes that split for the facing sector")
+                  "share of the upper nodes that split by facing direction")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   app->add_option("--vote-depth", o.vote_depth, "depth of the nodes that keep position votes")
@@ -92,18 +93,17 @@ void AddNodeOptions(CLI::App* app, forest::TrainOptions* options) {
 void AddDataOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
   app->add_option("--validation", a->validation,
                   "data sets for proposal parameters (default: 4 of each 100 frames, held out)");
-  app->add_option("--validation-images", a->validation_images, "images of them to use")
+  app->add_option("--validation-images", a->validation_images, "validation images to use")
       ->capture_default_str()
       ->check(Positive());
   app->add_option("--refinement", a->refinement,
                   "data sets of training subjects that no tree has seen: the second stage, which "
-                  "moves joints to where they belong, is learned on them");
-  app->add_option("--memory", words->memory, "for images; larger data stream in parts")
+                  "corrects joint positions, is trained on them");
+  app->add_option("--memory", words->memory, "memory for images; larger data are streamed in parts")
       ->capture_default_str();
   app->add_option("--max-megabytes", words->max_megabytes,
-                  "leave the rarest leaf entries out until the file fits, of the grown trees and, "
-                  "where what "
-                  "is learned after them takes too much room, of the finished model (0: keep all)")
+                  "maximum size of the file: the rarest leaf entries are dropped until it fits (0: "
+                  "keep all)")
       ->check(CLI::Range(0.0, kMostMegabytes));
   app->add_option("--terms", a->terms, "terms of the data, for the model's card; repeat for more")
       ->allow_extra_args(false);
@@ -111,18 +111,16 @@ void AddDataOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
 
 void AddRunOptions(CLI::App* app, TrainArguments* a) {
   forest::TrainOptions& o = a->options;
-  app->add_option("--seed", o.seed, "of every random choice")->capture_default_str();
-  app->add_option("--threads", o.threads, "0: all cores")
+  app->add_option("--seed", o.seed, "random seed")->capture_default_str();
+  app->add_option("--threads", o.threads, "threads; 0: all cores")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   auto* resume = app->add_flag(
-      "--resume", o.resume,
-      "go on from OUT.checkpoint where a run was cut off; of the same data done is done");
+      "--resume", o.resume, "continue an interrupted run from OUT.checkpoint, with the same data");
   app->add_flag("--quiet", a->quiet, "no progress");
-  auto* trees_of =
-      app->add_option("--trees-of", a->trees_of,
-                      "keep the trees of this model; learn only how joints lie to each other (on "
-                      "DATASET) and the proposals (on --validation)");
+  auto* trees_of = app->add_option("--trees-of", a->trees_of,
+                                   "keep the trees of this model; learn only the pose prior (on "
+                                   "DATASET) and the proposals (on --validation)");
   auto* import_pcl =
       app->add_option("--import-pcl", a->import_pcl,
                       "make a model of PCL people trees (text) instead of training; proposals of "

@@ -246,11 +246,11 @@ class PageTracker {
 void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
   app.add_option("--model", options.files.forest, "forest model, .ossa (default: the shipped one)");
   app.add_option("--database", options.files.database, "posture database, .ossadb");
-  app.add_option("--method", options.settings.method, "how postures are completed (default best)")
+  app.add_option("--method", options.settings.method, "method of reconstruction (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
   app.add_option("--learned", options.files.learned, ".ossagp, for the methods that learn");
   app.add_option("--smoothing", options.settings.smoothing,
-                 "preset of the filter (default: what goes with the method)")
+                 "preset of the joint filter (default: depends on the method)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
   app.add_option("--surface", options.files.surface,
                  ".ossasurface of 'ossa surface', the body that is fitted, or none: no fit, which "
@@ -262,7 +262,7 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
   app.add_flag("--seated", options.settings.seated, "look for the ten upper joints only");
   app.add_flag("--near", options.settings.near_range,
                "near range: people within 3 m of a level camera only");
-  app.add_option("--users", options.settings.users, "most people at a time, 1 to 6 (default 6)")
+  app.add_option("--users", options.settings.users, "maximum number of people, 1 to 6 (default 6)")
       ->check(CLI::Range(1, 6));
 }
 
@@ -288,11 +288,11 @@ int View(int argc, char** argv) {
   AddPageOptions(app, options.page);
   AddTrackingOptions(app, options);
   app.add_option("--over", options.over,
-                 "skeletons to see over those that are shown, with the distance between them; "
-                 "repeat for more")
+                 "skeletons to overlay, with their distance to those shown; repeat for more")
       ->allow_extra_args(false);
-  app.add_option("--record-to", options.record_to,
-                 "folder for what the page's record button records of a camera (default: here)");
+  app.add_option(
+      "--record-to", options.record_to,
+      "folder for recordings made with the page's record button (default: the current one)");
   app.add_flag("--once", options.once, "play a recording once at its own speed, and end with it");
   Parse(app, argc, argv);
   CheckRead(app, options.settings.method, false);

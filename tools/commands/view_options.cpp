@@ -10,14 +10,14 @@
 namespace ossa::commands {
 
 void AddPageOptions(CLI::App& app, PageArguments& arguments) {
-  app.add_option("--port", arguments.port, "of the page (default 8080, 0: any free one)")
+  app.add_option("--port", arguments.port, "port of the page (default 8080, 0: any free one)")
       ->check(CLI::Range(0, 65535));
   app.add_option("--listen", arguments.listen,
-                 "an IP address of this machine at which others reach the page, 0.0.0.0: all "
-                 "(default: this machine alone)");
-  app.add_option("--token", arguments.token,
-                 "what whoever looks must know, letters and digits (default: with --listen a "
-                 "random one)")
+                 "IP address on which the page is served to other machines, 0.0.0.0: all (default: "
+                 "this machine only)");
+  app.add_option(
+         "--token", arguments.token,
+         "access token of the page, letters and digits (default: with --listen a random one)")
       ->check([](const std::string& text) {
         const bool plain = !text.empty() && text.find_first_not_of(
                                                 "0123456789"
