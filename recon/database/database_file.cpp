@@ -1,4 +1,4 @@
-// The .ossadb file: writing, and reading that believes nothing.
+// The .ossadb file: writing, and reading in which every field is checked.
 #include <algorithm>
 #include <cmath>
 
@@ -51,6 +51,87 @@ void TurnFromStance(std::span<float> quaternions) {
   }
 }
 
+void ExpectSdkSkeleton(PayloadReader& in) {
+  if (in.Get<uint32_t>("joint count") != kJointCount) in.Fail("joint count", "expected 20");
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (in.Get<int32_t>("parent") != kJointParent[i]) in.Fail("parent", "not the SDK's skeleton");
+  }
+}
+
+BoneLengths ReadBoneLengths(PayloadReader& in) {
+  const auto lengths_m = in.Get<BoneLengths>("bone lengths");
+  for (const double length_m : lengths_m) {
+    if (!(length_m >= 0.0 && length_m < 5.0)) in.Fail("bone lengths", "expected 0 to 5 metres");
+  }
+  return lengths_m;
+}
+
+/// How the database was filtered and connected.
+struct FilterSettings {
+  DatabaseOptions options;
+  double edge_threshold_m = 0.0;
+};
+
+FilterSettings ReadFilterSettings(PayloadReader& in) {
+  FilterSettings settings;
+  const auto filter = in.Get<uint32_t>("filter");
+  if (filter > 1) in.Fail("filter", "expected 0 (sum-squared) or 1 (max-joint)");
+  settings.options.filter = static_cast<DatabaseFilter>(filter);
+  settings.options.threshold_m = in.Get<double>("threshold");
+  settings.options.most_edges = in.Get<int32_t>("most edges");
+  settings.edge_threshold_m = in.Get<double>("edge threshold");
+  const double threshold_m = settings.options.threshold_m;
+  if (!(threshold_m > 0.0 && threshold_m < 1e3) ||
+      !(settings.edge_threshold_m >= 0.0 && settings.edge_threshold_m < 1e3) ||
+      settings.options.most_edges < 0) {
+    in.Fail("settings", "expected positive thresholds in metres");
+  }
+  return settings;
+}
+
+/// The clips of a database, and the clip of each of its postures.
+struct ClipTable {
+  std::vector<std::string> names;
+  std::vector<uint32_t> of_posture;
+};
+
+/// `payload_size`: bytes of the whole payload, a bound of every count in it.
+ClipTable ReadClipTable(PayloadReader& in, size_t payload_size) {
+  ClipTable clips;
+  const auto count = in.Get<uint64_t>("clip count");
+  if (count > payload_size) in.Fail("clip count", "more clips than bytes");
+  for (uint64_t c = 0; c < count; ++c) clips.names.push_back(in.GetString("clip name"));
+  clips.of_posture = in.GetVector<uint32_t>("clip of each posture");
+  if (clips.of_posture.empty()) in.Fail("clip of each posture", "expected at least one posture");
+  for (const uint32_t clip : clips.of_posture) {
+    if (clip >= count) in.Fail("clip of each posture", "names a clip that is not listed");
+  }
+  return clips;
+}
+
+/// Edges of the pose graph: those of node i are edges[begin[i]] up to edges[begin[i + 1]].
+struct EdgeTable {
+  std::vector<int64_t> begin;
+  std::vector<int32_t> edges;
+};
+
+EdgeTable ReadEdgeTable(PayloadReader& in, size_t nodes) {
+  EdgeTable table;
+  table.begin = in.GetVector<int64_t>("edge offsets");
+  table.edges = in.GetVector<int32_t>("edges");
+  if (table.begin.size() != nodes + 1 || table.begin.front() != 0 ||
+      table.begin.back() != static_cast<int64_t>(table.edges.size()) ||
+      !std::is_sorted(table.begin.begin(), table.begin.end())) {
+    in.Fail("edge offsets", "expected one rising offset a posture");
+  }
+  for (const int32_t e : table.edges) {
+    if (e < 0 || static_cast<size_t>(e) >= nodes) {
+      in.Fail("edges", "names a posture that is not there");
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
 void PostureDatabase::Save(const std::filesystem::path& path) const {
@@ -87,35 +168,16 @@ PostureDatabase PostureDatabase::FromBytes(std::span<const std::byte> bytes,
                                            const std::string& name, uint32_t version) {
   PayloadReader in(bytes, name);
   PostureDatabase db;
-  if (in.Get<uint32_t>("joint count") != kJointCount) in.Fail("joint count", "expected 20");
-  for (size_t i = 0; i < kJointCount; ++i) {
-    if (in.Get<int32_t>("parent") != kJointParent[i]) in.Fail("parent", "not the SDK's skeleton");
-  }
-  db.bone_lengths_m_ = in.Get<BoneLengths>("bone lengths");
-  for (const double length : db.bone_lengths_m_) {
-    if (!(length >= 0.0 && length < 5.0)) in.Fail("bone lengths", "expected 0 to 5 metres");
-  }
-  const auto filter = in.Get<uint32_t>("filter");
-  if (filter > 1) in.Fail("filter", "expected 0 (sum-squared) or 1 (max-joint)");
-  db.options_.filter = static_cast<DatabaseFilter>(filter);
-  db.options_.threshold_m = in.Get<double>("threshold");
-  db.options_.most_edges = in.Get<int32_t>("most edges");
-  db.edge_threshold_m_ = in.Get<double>("edge threshold");
-  if (!(db.options_.threshold_m > 0.0) || !(db.edge_threshold_m_ >= 0.0) ||
-      !(db.edge_threshold_m_ < 1e3) || !(db.options_.threshold_m < 1e3) ||
-      db.options_.most_edges < 0) {
-    in.Fail("settings", "expected positive thresholds in metres");
-  }
+  ExpectSdkSkeleton(in);
+  db.bone_lengths_m_ = ReadBoneLengths(in);
+  const FilterSettings settings = ReadFilterSettings(in);
+  db.options_ = settings.options;
+  db.edge_threshold_m_ = settings.edge_threshold_m;
   db.source_postures_ = in.Get<int64_t>("source postures");
-  const auto clips = in.Get<uint64_t>("clip count");
-  if (clips > bytes.size()) in.Fail("clip count", "more clips than bytes");
-  for (uint64_t c = 0; c < clips; ++c) db.clip_names_.push_back(in.GetString("clip name"));
-  db.clip_of_ = in.GetVector<uint32_t>("clip of each posture");
+  ClipTable clips = ReadClipTable(in, bytes.size());
+  db.clip_names_ = std::move(clips.names);
+  db.clip_of_ = std::move(clips.of_posture);
   const size_t n = db.clip_of_.size();
-  if (n == 0) in.Fail("clip of each posture", "expected at least one posture");
-  for (const uint32_t clip : db.clip_of_) {
-    if (clip >= clips) in.Fail("clip of each posture", "names a clip that is not listed");
-  }
   const auto postures = in.GetVector<float>("postures");
   if (postures.size() != n * kPostureDims) in.Fail("postures", "expected 60 numbers a posture");
   ExpectFinite(in, postures, 10.0F, "postures");
@@ -127,16 +189,9 @@ PostureDatabase PostureDatabase::FromBytes(std::span<const std::byte> bytes,
   }
   ExpectFinite(in, db.quaternions_, 1.01F, "rotations");
   if (version == kStanceVersion) TurnFromStance(db.quaternions_);
-  db.edge_begin_ = in.GetVector<int64_t>("edge offsets");
-  db.edges_ = in.GetVector<int32_t>("edges");
-  if (db.edge_begin_.size() != n + 1 || db.edge_begin_.front() != 0 ||
-      db.edge_begin_.back() != static_cast<int64_t>(db.edges_.size()) ||
-      !std::is_sorted(db.edge_begin_.begin(), db.edge_begin_.end())) {
-    in.Fail("edge offsets", "expected one rising offset a posture");
-  }
-  for (const int32_t e : db.edges_) {
-    if (e < 0 || static_cast<size_t>(e) >= n) in.Fail("edges", "names a posture that is not there");
-  }
+  EdgeTable edges = ReadEdgeTable(in, n);
+  db.edge_begin_ = std::move(edges.begin);
+  db.edges_ = std::move(edges.edges);
   in.ExpectEnd();
   db.Summarise();
   return db;
