@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <map>
 
 #include "depth/base/error.h"
@@ -40,7 +41,7 @@ BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
 // Who comes back later under the same id is measured anew.
 constexpr double kForgotten_s = 60.0;
 
-/// A person, and where the posture of the last frame was written: it may be revised.
+/// A person, and where in the result the posture of the last frame is, which may be revised.
 struct Follower {
   std::unique_ptr<Reconstructor> method;
   TrackedPosture observed;
@@ -57,51 +58,87 @@ std::unique_ptr<Reconstructor> MethodFor(int person, const ReconstructorOptions&
   return MakeReconstructor(with);
 }
 
-/// As ReconstructSequence. `measured`, if given: bones as the methods tell them in the end.
+/// The people of a recording, and its frames as far as they are reconstructed.
+class SequenceRun {
+ public:
+  SequenceRun(const ReconstructorOptions& options, const BoneLengthsById& bones)
+      : options_(options), bones_(bones) {}
+
+  void Add(const SkeletonFrame& frame) {
+    Forget(frame.time_s - kForgotten_s);
+    SkeletonFrame made = frame;
+    made.bodies.clear();
+    for (const BodyRecord& body : frame.bodies) {
+      made.bodies.push_back(Step(frame, body, made.bodies.size()));
+    }
+    frames_.push_back(std::move(made));
+  }
+  /// Bone lengths as the methods estimate them in the end.
+  BoneLengthsById Bones() {
+    Forget(std::numeric_limits<double>::infinity());
+    return measured_;
+  }
+  std::vector<SkeletonFrame>& frames() { return frames_; }
+
+ private:
+  /// Drops those last seen before `time_s`; their bone lengths are kept.
+  void Forget(double time_s) {
+    std::erase_if(people_, [&](const auto& entry) {
+      const Follower& person = entry.second;
+      if (!(person.seen_s < time_s)) return false;
+      const auto lengths_m = person.method->Bones();
+      if (lengths_m) measured_[entry.first] = *lengths_m;
+      return true;
+    });
+  }
+  /// One person in the frame that is added, in which the result is body number `place`.
+  BodyRecord Step(const SkeletonFrame& frame, const BodyRecord& body, size_t place) {
+    Follower& person = people_[body.id];
+    if (!person.method) person.method = MethodFor(body.id, options_, bones_);
+    const TrackedPosture observed = ToTrackedPosture(body);
+    const auto now =
+        person.method->Step({observed, frame.time_s, nullptr, body.bones_m, frame.floor});
+    if (const auto revised = person.method->Revised()) {
+      BodyRecord& written = frames_[person.frame].bodies[person.body];
+      written = Reconstructed(written, person.observed, *revised);
+    }
+    person.observed = observed;
+    person.seen_s = frame.time_s;
+    person.frame = frames_.size();
+    person.body = place;
+    return Reconstructed(body, observed, now);
+  }
+
+  const ReconstructorOptions& options_;
+  const BoneLengthsById& bones_;
+  std::map<int, Follower> people_;
+  BoneLengthsById measured_;
+  std::vector<SkeletonFrame> frames_;
+};
+
+void ExpectEachBodyOnce(const SkeletonFrame& frame, const std::string& source) {
+  const auto id = RepeatedBody(frame);
+  if (!id) return;
+  throw InputError(fmt::format("{}: frame {}: expected each body once, found two of id {}", source,
+                               frame.frame, *id));
+}
+
+/// As ReconstructSequence. `measured`, if given: bones as the methods estimate them in the end.
 SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions options,
                      const std::function<bool(size_t)>& progress, const BoneLengthsById& bones,
                      BoneLengthsById* measured) {
   options.learned = LoadLearned(options);  // read once, not for each person
   MakeReconstructor(options);              // complain before any work
-  std::map<int, Follower> people;
-  const auto tell_bones = [&](int id, const Follower& person) {
-    const auto lengths_m = person.method->Bones();
-    if (measured != nullptr && lengths_m) (*measured)[id] = *lengths_m;
-  };
+  SequenceRun run(options, bones);
+  for (const SkeletonFrame& frame : sequence.frames) {
+    ExpectEachBodyOnce(frame, sequence.source);
+    run.Add(frame);
+    if (progress && !progress(run.frames().size())) break;
+  }
+  if (measured != nullptr) *measured = run.Bones();
   SkeletonSequence out;
   out.source = sequence.source;
-  for (const SkeletonFrame& frame : sequence.frames) {
-    if (const auto id = RepeatedBody(frame)) {
-      throw InputError(fmt::format("{}: frame {}: expected each body once, found two of id {}",
-                                   sequence.source, frame.frame, *id));
-    }
-    std::erase_if(people, [&](const auto& entry) {
-      const bool gone = frame.time_s - entry.second.seen_s > kForgotten_s;
-      if (gone) tell_bones(entry.first, entry.second);
-      return gone;
-    });
-    SkeletonFrame made = frame;
-    made.bodies.clear();
-    for (const BodyRecord& body : frame.bodies) {
-      Follower& person = people[body.id];
-      if (!person.method) person.method = MethodFor(body.id, options, bones);
-      const TrackedPosture observed = ToTrackedPosture(body);
-      const auto now =
-          person.method->Step({observed, frame.time_s, nullptr, body.bones_m, frame.floor});
-      if (const auto revised = person.method->Revised()) {
-        BodyRecord& written = out.frames[person.frame].bodies[person.body];
-        written = Reconstructed(written, person.observed, *revised);
-      }
-      person.observed = observed;
-      person.seen_s = frame.time_s;
-      person.frame = out.frames.size();
-      person.body = made.bodies.size();
-      made.bodies.push_back(Reconstructed(body, observed, now));
-    }
-    out.frames.push_back(std::move(made));
-    if (progress && !progress(out.frames.size())) break;
-  }
-  for (const auto& [id, person] : people) tell_bones(id, person);
+  out.frames = std::move(run.frames());
   return out;
 }
 
