@@ -245,60 +245,83 @@ depth::TriangleMesh SampleFurniture(Random& random) {
   }
 }
 
-std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random,
-                             std::span<const recon::Posture> path_in_world,
-                             std::span<const Eigen::Vector3d> cameras_m) {
-  const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
-  // The person stands over the origin and the camera looks along -z: the wall behind the person is
-  // at -behind. Both are inside the room, also where the camera hangs beside or behind the person.
-  constexpr float kLowCeiling_m = 2.4F, kAir_m = 0.05F;  // over the camera; by hand
-  constexpr float kPersonClear_m = 0.5F;                 // anthropometry: from walls
+namespace {
+
+/// Where a place of the world lies on the floor plan.
+Eigen::Vector2f OnGround(const Eigen::Vector3d& place_m) {
+  return Eigen::Vector2d(place_m.x(), place_m.z()).cast<float>();
+}
+
+/// A room about the origin, over which the person stands while the camera looks along -z: metres
+/// from there to the walls behind the person and before it, width, and how far its middle is aside.
+struct RoomExtent {
+  float behind_m, before_m, width_m, shift_m;
+};
+
+/// Large enough for the person, all cameras and `path`, on the floor plan.
+RoomExtent SampleRoomExtent(Random& random, const Eigen::Vector3d& camera_m,
+                            const Eigen::AlignedBox2f& path,
+                            std::span<const Eigen::Vector3d> cameras_m) {
+  constexpr float kPersonClear_m = 0.5F;  // anthropometry: from walls
   constexpr float kCameraClear_m = 0.3F;  // by hand: nearer, a sensor measures nothing
-  float behind_m = Draw(random, 0.5, 3.0);
-  auto before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
-  float width_m = Draw(random, 2.5, 6.0);
-  float shift_m = Draw(random, -0.3, 0.3) * width_m;
-  Eigen::AlignedBox2f path = ProjectOnGround(path_in_world);
-  for (const Eigen::Vector3d& other_m : cameras_m) {
-    path.extend(Eigen::Vector2d(other_m.x(), other_m.z()).cast<float>());
-  }
+  RoomExtent room{};
+  room.behind_m = Draw(random, 0.5, 3.0);
+  room.before_m = static_cast<float>(camera_m.z()) + Draw(random, 0.3, 1.0);
+  room.width_m = Draw(random, 2.5, 6.0);
+  room.shift_m = Draw(random, -0.3, 0.3) * room.width_m;
   Eigen::AlignedBox2f inside = path;
   const auto keep_clear = [&inside](const Eigen::Vector2f& place_m, float clear_m) {
     inside.extend(place_m - Eigen::Vector2f::Constant(clear_m));
     inside.extend(place_m + Eigen::Vector2f::Constant(clear_m));
   };
   keep_clear(Eigen::Vector2f::Zero(), kPersonClear_m);
-  keep_clear({static_cast<float>(camera_m.x()), static_cast<float>(camera_m.z())}, kCameraClear_m);
-  for (const Eigen::Vector3d& other_m : cameras_m) {
-    keep_clear({static_cast<float>(other_m.x()), static_cast<float>(other_m.z())}, kCameraClear_m);
+  keep_clear(OnGround(camera_m), kCameraClear_m);
+  for (const Eigen::Vector3d& other_m : cameras_m) keep_clear(OnGround(other_m), kCameraClear_m);
+  const float left_m = room.shift_m - room.width_m / 2, right_m = room.shift_m + room.width_m / 2;
+  const float low_m = std::min(left_m, inside.min().x());
+  const float high_m = std::max(right_m, inside.max().x());
+  if (!path.isEmpty() || low_m < left_m || high_m > right_m) {
+    room.width_m = high_m - low_m;
+    room.shift_m = (low_m + high_m) / 2;
   }
-  const float low_m = std::min(shift_m - width_m / 2, inside.min().x());
-  const float high_m = std::max(shift_m + width_m / 2, inside.max().x());
-  if (!path.isEmpty() || low_m < shift_m - width_m / 2 || high_m > shift_m + width_m / 2) {
-    width_m = high_m - low_m;
-    shift_m = (low_m + high_m) / 2;
-  }
-  behind_m = std::max(behind_m, -inside.min().y());
-  before_m = std::max(before_m, inside.max().y());
-  std::vector<Prop> props;
+  room.behind_m = std::max(room.behind_m, -inside.min().y());
+  room.before_m = std::max(room.before_m, inside.max().y());
+  return room;
+}
+
+/// Furniture along the wall behind, and at either side of the person, never on the person's place.
+depth::TriangleMesh SamplePlacedFurniture(Random& random, const RoomExtent& room) {
+  const float side = random.Chance(0.5) ? 1.0F : -1.0F;
+  const float z_m = -Draw(random, 0.0, room.behind_m);
+  const float aside_m = side * Draw(random, 0.7, std::max(0.8, 0.45 * room.width_m));
+  const Vector3f place_m(room.shift_m * 0.5F + aside_m, 0.0F, z_m);
+  const auto turn = Eigen::AngleAxisf(static_cast<float>(random.Normal(0, 0.3)), Vector3f::UnitY());
+  return depth::Moved(SampleFurniture(random),
+                      Eigen::Translation3f(place_m) * turn * Affine3f::Identity());
+}
+
+}  // namespace
+
+std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random,
+                             std::span<const recon::Posture> path_in_world,
+                             std::span<const Eigen::Vector3d> cameras_m) {
+  constexpr float kLowCeiling_m = 2.4F, kAir_m = 0.05F;  // over the camera; by hand
+  const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
+  Eigen::AlignedBox2f path = ProjectOnGround(path_in_world);
+  for (const Eigen::Vector3d& other_m : cameras_m) path.extend(OnGround(other_m));
+  const RoomExtent room = SampleRoomExtent(random, camera_m, path, cameras_m);
   float ceiling_m = Draw(random, 2.3, 3.0);
   const auto camera_height_m = static_cast<float>(camera_m.y());
   if (camera_height_m > kLowCeiling_m) ceiling_m = std::max(ceiling_m, camera_height_m + kAir_m);
+  const Eigen::Translation3f middle_m(room.shift_m, 0, (room.before_m - room.behind_m) / 2);
+  std::vector<Prop> props;
   props.push_back(
-      {depth::Moved(depth::MakeRoom({width_m, ceiling_m, behind_m + before_m}),
-                    Affine3f(Eigen::Translation3f(shift_m, 0, (before_m - behind_m) / 2))),
+      {depth::Moved(depth::MakeRoom({room.width_m, ceiling_m, room.behind_m + room.before_m}),
+                    Affine3f(middle_m)),
        false});
   const size_t count = random.Index(4);
   for (size_t i = 0; i < count; ++i) {
-    // Along the wall behind, and at either side of the person, never on the person's place.
-    const float side = random.Chance(0.5) ? 1.0F : -1.0F;
-    const float z_m = -Draw(random, 0.0, behind_m);
-    const float aside_m = side * Draw(random, 0.7, std::max(0.8, 0.45 * width_m));
-    const Vector3f place_m(shift_m * 0.5F + aside_m, 0.0F, z_m);
-    const auto turn =
-        Eigen::AngleAxisf(static_cast<float>(random.Normal(0, 0.3)), Vector3f::UnitY());
-    depth::TriangleMesh furniture = depth::Moved(
-        SampleFurniture(random), Eigen::Translation3f(place_m) * turn * Affine3f::Identity());
+    depth::TriangleMesh furniture = SamplePlacedFurniture(random, room);
     if (path.isEmpty() || !path.intersects(ProjectOnGround(furniture)))
       props.push_back({std::move(furniture), false});
   }
