@@ -27,18 +27,18 @@ struct Logistic {
 using ModeConfidence = Logistic<5>;   // of a mode, from what mean shift saw there
 using PlaceConfidence = Logistic<8>;  // of a place, from how it fits those of the other targets
 
-/// How one 3D target (a joint) is found among classified pixels. Learned on held-out frames.
+/// How one 3D target (a joint) is found in classified pixels. Learned on held-out frames.
 struct ProposalTarget {
   std::string name;                     // e.g. an SDK joint
-  std::vector<uint8_t> classes;         // classes whose surface lies around it; may be empty
+  std::vector<uint8_t> classes;         // classes of the surface around it; may be empty
   float bandwidth_m = 0.06F;            // of the density estimate, > 0 (Shotton 2011, sec. 3.3)
   float probability_threshold = 0.15F;  // pixels below do not vote by class
   float push_back_m = 0.04F;            // from the surface into the body, along the ray
   float class_weight = 1.0F;            // share of class votes against position votes, >= 0
   float vote_radius_m = 1.3F;           // longest position vote that counts
-  float vote_sharpness_m = 0.06F;       // votes of wider spread count less
-  float tracked_confidence = 0.5F;      // at least: tracked
-  float inferred_confidence = 0.15F;    // at least: inferred; less: not tracked
+  float vote_sharpness_m = 0.06F;       // votes with a larger spread count less
+  float tracked_confidence = 0.5F;      // tracked from this confidence on
+  float inferred_confidence = 0.15F;    // inferred from this one on; below: not tracked
   ModeConfidence correct;               // P(within 10 cm of the truth)
   ModeConfidence visible;               // P(its surface is seen)
   float mode_noise_m = 0.03F;           // of modes against what the other targets predict
@@ -46,19 +46,19 @@ struct ProposalTarget {
   PlaceConfidence apart;                // the same, of a mode that does not fit the others
 };
 
-/// The pose prior of objects seen in one context: factor analysis of how the targets lie to each
-/// other, x = place + mean + loading · z + noise, z ~ N(0, I), about a common place that is free.
+/// The pose prior of objects in one context: factor analysis of the targets' relative positions,
+/// x = origin + mean + loading · z + noise, z ~ N(0, I), with a free common origin.
 struct PosePrior {
   std::vector<float> mean_m;     // target × 3, camera axes
   std::vector<float> loading_m;  // target × 3 × factor, row-major
-  std::vector<float> noise_m;    // a target: what the factors leave, each axis
+  std::vector<float> noise_m;    // one a target: residual standard deviation, each axis
 };
 
-/// Joint-conditioned relabelling (forest/proposals/relabel.cpp): how classes lie to the proposed
-/// targets, as multinomial logistic regression on radial bases.
+/// Joint-conditioned relabelling (forest/proposals/relabel.cpp): multinomial logistic regression of
+/// a pixel's class on radial basis functions of its distances from the proposed targets.
 struct Relabelling {
-  std::vector<float> weight;  // 2 × scale × target × class from 1 on; the second half of them is
-                              // multiplied with the targets' confidences
+  std::vector<float> weight;  // 2 × scale × target × class from 1 on; the second half is
+                              // multiplied by the targets' confidences
   std::vector<float> bias;    // of each class from 1 on; empty: labels stay as the trees give them
 };
 inline constexpr size_t kRadialBasisScales = 3;  // of the format
@@ -68,7 +68,7 @@ struct ForestData {
   std::vector<std::string> class_names;    // class 0 is background and never given
   std::vector<std::string> context_names;  // e.g. facing sectors; at least one
   std::vector<float> context_prior;        // sums to 1
-  float evidence_scale = 20.0F;  // independent pixels an object's pixels count as, for the context
+  float evidence_scale = 20.0F;  // effective number of independent pixels of an object, for context
   uint16_t background_mm = 10000;
   std::vector<Tree> trees;
   std::vector<ProposalTarget> targets;
@@ -84,19 +84,19 @@ struct ForestData {
 
 struct RuntimeTables;  // forest/runtime_tables_internal.h
 
-/// What a model is there for. One that is only run lets go of its trees' nodes and of what their
-/// leaves held (Tree::entries) as soon as the tables that run are made of them: those of leaves
-/// while it runs (forest/deferred_leaves_internal.h). It cannot be written.
+/// The use of a model. With kRunOnly the trees' nodes and the entries of their leaves
+/// (Tree::entries) are released as soon as the run-time tables are made from them; those of the
+/// leaves are made while it runs (forest/deferred_leaves_internal.h). It cannot be written.
 enum class ModelUse { kAny, kRunOnly };
 
 /// A checked forest, ready to run. Immutable; copies share.
 class ForestModel {
  public:
-  /// Throws InputError (naming `name`) when the data contradict themselves.
+  /// Throws InputError (naming `name`) when the data are inconsistent.
   explicit ForestModel(ForestData data, const std::string& name = "model",
                        ModelUse use = ModelUse::kAny);
 
-  /// Of parts that belonged to a checked model before (forest/kept_tables.h).
+  /// From parts of a model that was checked before (forest/kept_tables.h).
   ForestModel(std::shared_ptr<const ForestData> data, std::shared_ptr<const RuntimeTables> tables);
 
   const ForestData& data() const { return *data_; }

@@ -41,26 +41,26 @@ struct ControlGains {
 struct CharacterOptions {
   Control control = Control::kPaper;
   ControlGains gains;
-  /// Share of the target's velocity that the controller gets, [0, 1]. 0: a spring towards the
-  /// newest posture as if that stood still, smoothest. 1: no lag behind steady motion, as with the
-  /// target's derivative in eq. 1, but noise comes through.
+  /// Share of the target's velocity that the controller uses, [0, 1]. 0: as if the newest posture
+  /// stood still, smoothest. 1: no lag behind steady motion, as with the target's derivative in
+  /// eq. 1, but with more noise.
   double lead = 0.0;
   bool pin_feet = true;
   /// Forearms, hands and legs go neither through each other nor through trunk and head. 3 cm of a
   /// limb are soft, as bodies are: a sensor's folded arms lie a little in the chest.
   bool self_collision = true;
   bool hinges = false;        // elbows and knees are hinges instead of ball joints (sec. 4)
-  bool joint_limits = false;  // joints keep to the ranges that people's have
+  bool joint_limits = false;  // joints keep to human ranges of motion
   bool dodge = false;  // raise the forearms around the head when something flies at it (sec. 8.2)
-  bool lean = false;   // lean out of the way of what flies at head or shoulders
+  bool lean = false;   // lean out of the way of objects that fly at head or shoulders
   double stature_m = 0.0;  // 0: from the bones
   double mass_kg = 0.0;    // 0: from the stature
-  /// Bit masks, by convention: two meet if each is in a group the other collides with.
+  /// Bit masks: two collide if each is in a group that the other collides with. By convention.
   uint32_t groups = 1, collides_with = ~0U;
   void Check(double step_s) const;
 };
 
-/// Where a character is and how it moves: joints in the world, metres.
+/// State of a character: joints in the world, metres.
 struct CharacterState {
   recon::Posture posture;                // bone lengths exact
   recon::JointOrientations orientation;  // recon/orientation.h
@@ -69,47 +69,47 @@ struct CharacterState {
   double max_anchor_gap_m = 0.0;  // between the two sides of a ball joint, now
   double max_solver_gap_m = 0.0;  // the same as the solver left it, largest of the last Step
   Eigen::Vector3d momentum_kg_m_s = Eigen::Vector3d::Zero();
-  int rescued = 0;  // how often it was put back because its motion was not finite; 0 is wanted
+  int rescued = 0;  // number of resets because its motion was not finite; should be 0
 };
 
-/// How somebody stood at one time, for ComputeDynamics. Any right-handed frame, metres.
+/// A posture at one time, for ComputeDynamics. Any right-handed frame, metres.
 struct BodyPose {
   double time_s = 0.0;
-  recon::Posture posture;                // bones of one length throughout, as of a character
+  recon::Posture posture;                // of constant bone lengths, as a character's are
   recon::JointOrientations orientation;  // recon/orientation.h
 };
 
-/// Of whom, on what floor, and how smoothly ComputeDynamics takes derivatives.
+/// Person, floor and smoothing of the derivatives in ComputeDynamics.
 struct DynamicsOptions {
-  double stature_m = 0.0, mass_kg = 0.0;         // as of CharacterOptions
+  double stature_m = 0.0, mass_kg = 0.0;         // as in CharacterOptions
   double gravity_m_s2 = 9.81;                    // Earth, by definition; along the normal
   Eigen::Vector4d floor = {0.0, 1.0, 0.0, 0.0};  // a b c d, normal up
-  /// Velocities and accelerations are of the parabola through all frames so near, at least three:
-  /// longer is smoother and blunter. 0.1 s takes 3 % off the acceleration of a swing of 1 Hz.
+  /// Velocities and accelerations are those of the parabola fitted to all frames within this time,
+  /// at least three. 0.1 s lowers the acceleration of a swing of 1 Hz by 3 %.
   // By hand, [0, 1]; biomechanics' usual 6 Hz low-pass blunts as much
   double window_s = 0.1;
 };
 
-/// What moved somebody at one moment. Newton and newton metres, in the frame of the postures.
+/// Inverse dynamics at one time: newtons and newton metres, in the frame of the postures.
 struct Dynamics {
-  /// What the muscles turn the bone that ends in the joint with, about its other end: of kAnkleLeft
-  /// the knee's torque, of kKneeLeft the hip's, of kWristLeft the elbow's. Of the spine, with which
-  /// the chain ends, what is left over: nothing, but in the air.
+  /// Muscle torque on the bone that ends in the joint, about the bone's other end: kAnkleLeft has
+  /// the knee's torque, kKneeLeft the hip's, kWristLeft the elbow's. The spine, at which the chain
+  /// ends, has the residual: zero, except in the air.
   recon::JointArray<Eigen::Vector3d> torque_nm;
   recon::JointArray<Eigen::Vector3d> force_n;  // on that bone at that end, by the bone before it
   Eigen::Vector3d ground_force_n = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 2> foot_force_n = {Eigen::Vector3d::Zero(),
                                                  Eigen::Vector3d::Zero()};  // left, right
-  std::optional<Eigen::Vector3d> centre_of_pressure_m;  // on the floor; of nobody in the air
+  std::optional<Eigen::Vector3d> centre_of_pressure_m;  // on the floor; none in the air
   double free_moment_nm = 0.0;                          // of the ground, about the floor's normal
   Eigen::Vector3d centre_of_mass_m = Eigen::Vector3d::Zero();
 };
 
-/// Inverse dynamics of a recording (Winter 2009, chs. 5, 7): frames in order of time, three or
-/// more. Masses are of physics' own table (de Leva 1996), centres of mass in the middle of the
-/// bones. The ground presses on the feet alone; two feet that stand share it as the centre of
-/// pressure divides the way between them, which is an assumption, as without force plates it must
-/// be. Throws InputError for frames, std::invalid_argument for options.
+/// Inverse dynamics of a recording (Winter 2009, chs. 5, 7): three or more frames in order of time.
+/// Masses are those of de Leva 1996 (physics/anthropometry.h), with centres of mass in the middle
+/// of the bones. The ground acts on the feet only. Two standing feet share its force as the centre
+/// of pressure divides the distance between them; without force plates that is an assumption.
+/// Throws InputError for frames, std::invalid_argument for options.
 std::vector<Dynamics> ComputeDynamics(const recon::BoneLengths& lengths,
                                       std::span<const BodyPose> motion,
                                       const DynamicsOptions& options = {});

@@ -21,18 +21,18 @@ struct CharacterFilterOptions {
   bool pin_feet = true;
   bool self_collision = true;
   bool hinges = false;        // elbows and knees are hinges instead of ball joints
-  bool joint_limits = false;  // joints keep to the ranges that people's have
+  bool joint_limits = false;  // joints keep to human ranges of motion
   double stature_m = 0.0;     // 0: from the bones
   double mass_kg = 0.0;       // 0: from the stature
-  /// A target this far from the character, joints' mean, for `teleport_frames` frames in a row is a
-  /// new place, not noise: the character is put there. Until then it moves there by bounded forces.
+  /// A target at this mean distance of joints from the character for `teleport_frames` frames in a
+  /// row is not noise: the character is put there. Until then bounded forces move it there.
   double teleport_m = 1.0;
   int teleport_frames = 3;
   uint64_t seed = 1;
   void Check() const;  // throws std::invalid_argument with name, value and range
 };
 
-/// What the filter makes of one frame.
+/// Result of the filter for one frame.
 struct FilteredPosture {
   recon::Posture posture;                // all finite; bone lengths exact
   recon::JointOrientations orientation;  // absolute, recon/orientation.h
@@ -44,9 +44,9 @@ struct FilteredPosture {
   double floor_depth_m = 0.0;  // how deep the lowest capsule lies in the floor
 };
 
-/// The physical character as a filter (Shum et al. 2013, sec. VII): postures in, postures out that
-/// keep bone lengths, stay above the floor, stand on their feet and move as masses move.
-/// One object per person. Two filters may run in two threads; one filter may not.
+/// The physical character as a filter of postures (Shum et al. 2013, sec. VII). Its postures keep
+/// bone lengths, stay above the floor, stand on their feet and obey the dynamics of masses.
+/// One object per person; it must not be used by two threads at once.
 class CharacterFilter {
  public:
   /// Throws InputError for lengths that are not in (0, 2] m, std::invalid_argument for options.
@@ -56,13 +56,13 @@ class CharacterFilter {
   CharacterFilter(CharacterFilter&&) noexcept;
   CharacterFilter& operator=(CharacterFilter&&) noexcept;
 
-  /// `target`: camera space or any other right-handed frame, the floor in the same. `weight`: trust
-  /// per joint in [0, 1], empty = all 1. NaN joints are allowed. `dt_s` since the last step; after
-  /// a gap of more than 0.25 s the character starts anew. `orientation`: World::SetTarget.
+  /// `target`: camera space or any other right-handed frame, `floor` in the same. `weight`: one
+  /// entry per joint in [0, 1], empty: all 1. NaN joints are allowed. `dt_s`: seconds since the
+  /// last step; after more than 0.25 s the character starts anew. `orientation`: see World.
   FilteredPosture Step(const recon::Posture& target, std::span<const double> weight,
                        const std::optional<Eigen::Vector4d>& floor, double dt_s,
                        const std::optional<recon::JointOrientations>& orientation = std::nullopt);
-  /// Forgets where the character is; the next Step places it.
+  /// Forgets the character's state; the next Step places it at its target.
   void Reset();
 
  private:

@@ -23,7 +23,7 @@ struct JointRecord {
   std::optional<Eigen::Vector3d> sigma_m = std::nullopt;
 };
 
-/// A thing that people handle, where it was in one frame: of a mechanical scene.
+/// Pose of an object of a physical scene in one frame.
 struct ObjectRecord {
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // camera space
@@ -34,11 +34,11 @@ struct ObjectRecord {
 struct BodyRecord {
   int id = 0;
   JointArray<std::optional<JointRecord>> joints;  // absent joints are empty
-  /// As cascaded refinement estimates them of this frame alone (ReconstructionInput::bones_m).
+  /// Estimate of cascaded refinement from this frame alone (ReconstructionInput::bones_m).
   std::optional<BoneLengths> bones_m = std::nullopt;
 };
 
-/// One moment of a recording: everybody in it.
+/// One frame of a recording with all its bodies.
 struct SkeletonFrame {
   int64_t frame = 0;
   double time_s = 0.0;
@@ -47,15 +47,15 @@ struct SkeletonFrame {
   std::vector<ObjectRecord> objects{};  // written to JSONL; no reader gives any
 };
 
-/// What any skeleton file holds, ours or an SDK's, brought to our joints, axes and units.
+/// The content of any skeleton file, converted to the SDK's joints, camera space and metres.
 struct SkeletonSequence {
   std::string source;  // file it came from, for messages
   std::vector<SkeletonFrame> frames;
-  std::string sensor{};  // kKinectV2 or kRefinedJoints where the file tells; else empty
-  /// Of a file that holds two skeletons side by side which one this is, truth or observed; else
-  /// empty.
+  std::string sensor{};  // kKinectV2 or kRefinedJoints if the file tells; else empty
+  /// Which of two skeletons in one file this is, "truth" or "observed"; empty if there is only
+  /// one.
   std::string columns{};
-  /// What was odd and how it was read, a line each, naming file and place: for people to see.
+  /// Oddities of the file and how they were read, a line each with file and place.
   std::vector<std::string> warnings{};
 };
 
@@ -65,14 +65,14 @@ constexpr const char* kKinectV2 = "Kinect v2";
 /// estimates bones.
 constexpr const char* kRefinedJoints = "refined joints";
 
-/// Whether the joint's position says something. What a sensor does not see lies anywhere, at the
-/// camera as a rule; where a method has then placed it there is a reliability.
+/// Whether the joint's position is meaningful: it was seen, or a method has placed it, which then
+/// gives it a reliability. Unseen joints of sensors lie anywhere, usually at the camera.
 bool HasPlace(const JointRecord& joint);
 
-/// The id that two bodies of the frame have, if any: a damaged file.
+/// An id that two bodies of the frame share, as in damaged files; none otherwise.
 std::optional<int> RepeatedBody(const SkeletonFrame& frame);
 
-/// A body record as the trackers' type: absent joints are not tracked; a joint without a state
+/// The record as a TrackedPosture: absent joints are not tracked; a joint without a state
 /// counts as tracked; a joint without confidence gets 1 (tracked), 0.5 (inferred) or 0.
 TrackedPosture ToTrackedPosture(const BodyRecord& body);
 

@@ -23,21 +23,21 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
-/// True of a camera that can be: sides of 1 to kLargestImageSide pixels, focal lengths of 0.1 to
-/// 1e6, a centre within 1e6 of the image's corner. Fisheye-like focal lengths and centres far off
-/// the image are legal, if odd; with 0, NaN or 1e-300 every point would be nonsense.
+/// Whether the parameters are possible: sides of 1 to kLargestImageSide pixels, focal lengths of
+/// 0.1 to 1e6, a principal point within 1e6 pixels of the image's corner. Very short focal lengths
+/// and principal points far outside the image are allowed; 0, NaN and the like are not.
 bool IsSane(const Camera& camera);
-/// Throws InputError naming the first field for which it is not. `name` stands for what says
-/// so, as "FILE: camera".
+/// Throws InputError naming the first field that is not. `name` stands for its origin in the
+/// message, e.g. "FILE: camera".
 void CheckCamera(const Camera& camera, const std::string& name);
 
-/// The Kinect v1 depth camera: f = 575 px at 640 pixels width, centre of the image, scaled with it.
+/// The Kinect v1 depth camera: f = 575 px at 640 pixels width, principal point at the image centre.
 Camera KinectV1Camera(int width, int height);
 
 /// The same view sampled at another width and height.
 Camera Resized(const Camera& camera, int width, int height);
 
-/// Of the same view what is within width × height pixels from (left, top) on.
+/// The camera of a crop: width × height pixels whose upper left one is (left, top).
 Camera Cropped(const Camera& camera, int left, int top, int width, int height);
 
 /// The one conversion from sensor units to metres.

@@ -12,14 +12,14 @@ namespace ossa::depth {
 /// Throws InputError naming the file and the field.
 Camera ReadCameraJson(const std::filesystem::path& path);
 
-/// Whether a name is one of files that state cameras, .json, .yaml, .yml, .xml, .txt, or of a file
-/// with another extension that is there.
+/// Whether the name may be a camera file: it ends in .json, .yaml, .yml, .xml or .txt, or a file of
+/// that name exists.
 bool IsCameraFile(const std::filesystem::path& path);
-/// The camera that such a file states: as camera.json does, or a calibration as OpenCV's
-/// FileStorage (YAML, XML, JSON) and ROS's camera_calibration (ost.yaml) and camera_info have it,
-/// or the numbers of its matrix alone; one that states no size is of whatever images come. What a
-/// pinhole camera cannot be, a lens that bends by more than a hundredth of the image, is in
-/// `unheeded`. Throws InputError naming the file.
+/// Reads the intrinsics in a camera file: camera.json, a calibration of OpenCV's FileStorage (YAML,
+/// XML, JSON) or of ROS (camera_calibration's ost.yaml, camera_info), or the numbers of the camera
+/// matrix alone. Without an image size in the file they are for images of any size. Distortion of
+/// more than a hundredth of the image's width is ignored and reported in `unheeded`. Throws
+/// InputError naming the file.
 CameraChoice ReadCameraFile(const std::filesystem::path& path);
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera);
 
@@ -30,9 +30,9 @@ std::string CameraToJson(const Camera& camera);
 /// The "camera" object of a data set's manifest.json.
 Camera ReadManifestCamera(const std::filesystem::path& manifest_path);
 
-/// What `--camera PRESET|fx,fy,cx,cy|FILE` says (CameraPresetNames, ReadCameraFile). Four numbers
-/// are in pixels of whatever frames come (of the whole image, where a sensor crops it), so their
-/// camera has width and height 0 until CameraForSize gets the size.
+/// Parses `--camera PRESET|fx,fy,cx,cy|FILE` (CameraPresetNames, ReadCameraFile). Four numbers are
+/// in pixels of the frames (of the whole image, where a sensor crops it), whose size is not known
+/// yet: their camera has width and height 0 until CameraForSize.
 CameraChoice ParseCamera(const std::string& text);
 
 }  // namespace ossa::depth

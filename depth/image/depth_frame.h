@@ -28,15 +28,15 @@ struct DepthFrame {
   Camera camera;
   double time_s = 0.0;  // sensor clock, seconds
   int64_t index = 0;    // frame number of the source, from 0
-  // The image where it lies in memory that outlives this frame and its copies, such as a driver's
-  // buffer, in place of depth_mm; without data depth_mm is the image.
+  // An image in memory that outlives this frame and its copies, such as a driver's buffer, used
+  // instead of depth_mm; ignored without data.
   DepthView borrowed = {};
 
   DepthView view() const {
     if (borrowed.data_mm != nullptr) return borrowed;
     return {depth_mm.data(), camera.width, camera.height, camera.width};
   }
-  /// Of the image that is there, whatever the camera says.
+  /// Number of pixels of the image itself; the camera may state another size.
   size_t pixel_count() const {
     if (borrowed.data_mm == nullptr) return depth_mm.size();
     return static_cast<size_t>(borrowed.width) * static_cast<size_t>(borrowed.height);

@@ -7,15 +7,15 @@
 
 namespace ossa::depth {
 
-/// Largest depth an .oni of ours holds, millimetres. OpenNI2's own recorder silently corrupts
+/// Largest depth that OniRecorder writes, millimetres. OpenNI2's own recorder silently corrupts
 /// values not strictly below a stream's MAX_VALUE, and MAX_VALUE is at most 65535.
 inline constexpr uint16_t kLargestOniDepth_mm = 65534;
 
 /// Writes depth frames to an .oni recording that OpenNI2, NiViewer and ossa play back bit for bit.
-/// The file appears under its name at Finish(), whole; without it nothing is left.
+/// The complete file appears under its name at Finish(); without that nothing is left.
 ///
-/// Beside what OpenNI2 wants it holds the exact camera and a checksum, as properties that OpenNI2
-/// passes over: damage to a recording of ours is noticed, which OpenNI2 alone would not.
+/// The file also holds the exact camera and a checksum, as properties that OpenNI2 ignores, so that
+/// ossa detects damage that OpenNI2 does not.
 class OniRecorder {
  public:
   /// All frames must have the camera's size. Throws InputError when the file cannot be written or
@@ -27,11 +27,11 @@ class OniRecorder {
   /// format would corrupt (above kLargestOniDepth_mm), when it comes out larger than a player can
   /// hold (noise all over a frame of 1600 × 1200), and DiskFull when it does not fit.
   void Write(const DepthFrame& frame);
-  /// Throws DiskFull when what ends the file does not fit.
+  /// Throws DiskFull when the end of the file does not fit.
   void Finish();
-  /// In place of Finish(), after an InputError such as DiskFull: ends the file after the last whole
-  /// frame, or so many before it that the end fits. Returns how many frames were kept; 0: none, and
-  /// nothing is left. Throws InputError where the file cannot be ended for another reason.
+  /// Instead of Finish(), after an InputError such as DiskFull: ends the file after the last
+  /// complete frame, or earlier if its end needs the room. Returns the number of frames kept; with
+  /// 0 no file is left. Throws InputError if the file cannot be ended for another reason.
   int64_t FinishWithWhatFits();
   int64_t frame_count() const;
 

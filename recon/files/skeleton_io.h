@@ -10,27 +10,27 @@
 
 namespace ossa::recon {
 
-/// How recorded skeletons are read: format and columns, where the file does not tell.
+/// How recorded skeletons are read; for what a file does not state.
 struct SkeletonReadOptions {
   /// Files that hold two skeletons side by side (UI-PRMD derived K_ and G_ columns, ITOP G_ and
   /// P_): "truth" (also vicon) or "observed" (also kinect, estimate). Without it such a file is
-  /// refused. Also said after the path: `s01.tar.gz#truth`.
+  /// refused. Alternatively given after the path: `s01.tar.gz#truth`.
   std::string columns;
-  /// One of SkeletonFormats(); "" finds it by content.
+  /// One of SkeletonFormats(); "": recognised by content.
   std::string format;
   /// Time step of formats that carry no time, seconds; 0: the format's own usual rate.
   double frame_s = 0.0;
-  /// Names of joints or points that are none of those known, for files in which they occur: lines
-  /// `ElbowLeft = name` (docs/files.md); "" for none.
+  /// Mapping file of unknown names of joints or points, for files in which they occur: lines
+  /// `ElbowLeft = name` (docs/files.md); "": none.
   std::string mapping_file;
-  /// Asked before each recording of a folder or an archive; true: no more are read, and those until
-  /// then are what is returned.
+  /// Called before each recording of a folder or an archive; true ends the reading, and the
+  /// recordings read so far are returned.
   std::function<bool()> stop = {};
-  /// Told while reading how many bytes of what is read were, of how many; may be empty.
+  /// Called while reading with the bytes read so far and in all; may be empty.
   std::function<void(uint64_t done, uint64_t of)> progress = {};
 };
 
-/// The names of all formats that are read, e.g. "jsonl", "kinect-v2-csv".
+/// The names of all formats that are read, e.g. "jsonl", "ui-prmd-kinect".
 std::vector<std::string> SkeletonFormats();
 
 /// Reads one recording in any format that ossa knows, found by content: brought to our 20 joints,
@@ -44,7 +44,7 @@ std::vector<std::string> SkeletonFormats();
 SkeletonSequence ReadSkeletons(const std::filesystem::path& path,
                                const SkeletonReadOptions& options = {});
 
-/// What is read of such a path: the file or folder, without what is said after '#'.
+/// The file or folder of such a path, without the part after '#'.
 std::filesystem::path FindSkeletonFile(const std::filesystem::path& path);
 
 /// One recording of several.
@@ -56,8 +56,8 @@ struct SkeletonClip {
 };
 
 /// All recordings of a file, a folder (searched through) or an archive (.tar .tar.gz .zip), sorted
-/// by name; the same names on both sides of a comparison belong together. Files in a folder that
-/// are no skeletons by their extension (.md, LICENSE, README...) are passed over.
+/// by name; equal names on both sides of a comparison belong together. Files in a folder that are
+/// no skeletons by their extension (.md, LICENSE, README...) are ignored.
 std::vector<SkeletonClip> ReadSkeletonClips(const std::filesystem::path& path,
                                             const SkeletonReadOptions& options = {});
 
@@ -73,7 +73,7 @@ SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& nam
 /// recording is filled there.
 void WriteSkeletons(const std::filesystem::path& path, const SkeletonSequence& sequence);
 
-/// Throws InputError when WriteSkeletons would refuse the extension: ask before a long run.
+/// Throws InputError if WriteSkeletons would refuse the extension; to be called before a long run.
 void CheckSkeletonExtension(const std::filesystem::path& path);
 
 }  // namespace ossa::recon

@@ -6,14 +6,14 @@
 
 namespace ossa::recon {
 
-/// The method where none is asked for.
+/// The default method.
 inline constexpr std::string_view kDefaultMethod = "best";
 
-/// Whether a method reads something.
+/// Whether a method uses a kind of model.
 enum class Reads {
-  kNothing,   // it makes no difference to the method
+  kNothing,   // it is not used
   kOptional,  // the method is better with it
-  kRequired,  // the method cannot be made without it
+  kRequired,  // the method does not work without it
 };
 
 /// A method of reconstruction as methods.inc describes it, without the code.
@@ -23,8 +23,8 @@ struct MethodInfo {
   Reads learned = Reads::kNothing;   // of a sensor's errors, recon/models/learned_models.h
   bool prior = false;  // completes by a pose prior, recon/models/posture_prior.h, where it has one
   bool refined = false;      // starts from joints refined at the depth image where there are any
-  bool keeps_bones = false;  // a person's bones have the same lengths in all that comes out
-  bool smoothed_in_files = false;  // of recordings, by the frames after each, unless asked not to
+  bool keeps_bones = false;  // a person's bone lengths are constant in the results
+  bool smoothed_in_files = false;          // recordings are smoothed by later frames by default
   std::string_view smoothing = "default";  // preset that goes with it: a filter needs no second one
 };
 

@@ -13,51 +13,51 @@
 
 namespace ossa::recon {
 
-/// What a method gets of one person at one time.
+/// Input of a method: one person at one time.
 struct ReconstructionInput {
   TrackedPosture observed;  // camera space
-  double time_s = 0.0;      // steps may be irregular; gaps of seconds happen
-  /// The depth image, when there is one: whether a surface lies where a joint is said to be tells
-  /// an occluded joint from a wrong one. Borrowed for the call.
+  double time_s = 0.0;      // steps may be irregular, with gaps of seconds
+  /// The depth image, if there is one: a surface at a joint's position, or its absence, tells an
+  /// occluded joint from a wrong one. Borrowed for the call.
   const depth::DepthFrame* depth = nullptr;
-  /// The person's bones as cascaded refinement estimates them in this frame
+  /// Bone lengths as cascaded refinement estimates them in this frame, metres
   /// (recon/refine/bone_estimation.h).
   std::optional<BoneLengths> bones_m = std::nullopt;
-  /// a b c d of ax + by + cz + d = 0, unit normal up, camera space: which way is up. Without one,
-  /// somebody who stands tells.
+  /// a b c d of ax + by + cz + d = 0, unit normal up, camera space. Without it the vertical is
+  /// estimated from the person.
   std::optional<Eigen::Vector4d> floor = std::nullopt;
-  /// Takes the observed joints to the space of the depth image, where they are in another.
+  /// Transform of the observed joints to the depth image's space, if they are in another one.
   std::optional<Eigen::Isometry3d> camera_from_observed = std::nullopt;
 };
 
-/// What a method may find wrong with all that was observed of a person.
+/// Failures of the observation as a whole that a method may detect.
 enum class GrossFailure {
   kNone,
-  kSidesExchanged,  // left is right: the posture has it the right way round
-  kAnotherBody,     // no body moves so: nothing of it is in the posture
+  kSidesExchanged,  // left and right were swapped; the posture has them corrected
+  kAnotherBody,     // an impossible motion; the observation was not used
 };
 
-/// What a method makes of one person at one time.
+/// Result of a method: one person at one time.
 struct ReconstructedPosture {
   Posture posture;                   // camera space, all 20 joints finite
   JointArray<double> reliability{};  // R_i in [0, 1] of the observed joint, eq. 8
-  /// Camera from bone (recon/orientation.h), of methods that know how bones are turned about
-  /// themselves, from a database; else empty: what joints tell of it, ComputeOrientations says.
+  /// Camera from bone (recon/orientation.h), from methods that know the bones' rotations about
+  /// their own axes from a database; else empty, see ComputeOrientations.
   std::optional<JointOrientations> orientation = std::nullopt;
   GrossFailure failure = GrossFailure::kNone;
 };
 
-/// One person's posture made complete and plausible, frame by frame. One object per person.
+/// Makes the postures of one person complete and plausible, frame by frame. One object per person.
 class Reconstructor {
  public:
   virtual ~Reconstructor() = default;
-  /// Never throws on odd observations: all joints missing, NaN, jumps in time.
+  /// Does not throw for odd observations: all joints missing, NaN, jumps in time.
   virtual ReconstructedPosture Step(const ReconstructionInput& input) = 0;
-  /// What the last Step made the method think of the frame before it, for callers that can wait one
-  /// frame (files). Empty for methods that do not look back, and after a gap.
+  /// The previous frame's result as revised by the last Step, for callers that can wait one frame
+  /// (files). Empty for methods without revision, and after a gap.
   virtual std::optional<ReconstructedPosture> Revised() const { return std::nullopt; }
-  /// How long the person's bones are, by all that was observed until now: those of what comes out
-  /// change more rarely. Empty for methods that move joints alone.
+  /// Current estimate of the bone lengths, metres; those of the results are updated less often.
+  /// Empty for methods that filter joints one by one.
   virtual std::optional<BoneLengths> Bones() const { return std::nullopt; }
   /// Forgets the person.
   virtual void Reset() = 0;
@@ -78,10 +78,10 @@ struct LocalPcaOptions {
   double kinematics = 1.5;            // weight w_k, eq. 15
   double continuity = 0.25;           // weight w_m, eq. 15
   std::string solver = "stochastic";  // or "ceres": the same energy by Levenberg-Marquardt
-  bool use_reliability = true;        // false: the paper's method B, every joint seen counts fully
+  bool use_reliability = true;        // false: method B of the paper, all seen joints count fully
   bool extend_database = false;       // sec. IX: reliable postures join a private copy at run time
-  /// Departure, off by default: each joint ends between the posture found and where it was seen,
-  /// by R_i. The papers show the posture found alone, so that what the database lacks moves even
+  /// Departure, off by default: joints are interpolated between the posture found and the observed
+  /// one by R_i. The papers' result is the posture found, so that gaps in the database move even
   /// joints that were seen well.
   bool keep_reliable = false;
 };
@@ -95,49 +95,49 @@ struct GaussianProcessOptions {
   bool incremental = true;   // algorithm 2: reliable samples of low variance join the local models
 };
 
-/// What of `best` was chosen on recordings. `ossa experiment sdk` with data = ["nested"] chooses
-/// each on people other than those it is then tested on.
+/// Constants of `best` that were tuned on recordings. `ossa experiment sdk` with data = ["nested"]
+/// tunes them on other people than those tested.
 struct BestConstants {
-  // Of the filter; chosen on UI-PRMD: within a factor of two of each nothing moves by more than 2
-  // %.
+  // Of the filter; chosen on UI-PRMD: a factor of two in either changes no error by more than
+  // 2 %.
   double noise_m = 0.02;       // of one measurement, standard deviation
   double acceleration = 10.0;  // of a joint, m/s^2, standard deviation
   // Chosen on UI-PRMD: share taken of what the learned correction changes with the posture.
   double posture_share = 0.6;
-  // Chosen on UI-PRMD, a ratio: how firm a joint of a limb is, over its parent, when bones get
-  // their lengths.
+  // Chosen on UI-PRMD, a ratio: weight of a limb's joint over its parent's when bone lengths are
+  // enforced.
   double limb_firmness = 0.5;
-  // Chosen on UI-PRMD: share of what is expected of a body of this size in a bone's length, beside
-  // what is measured.
+  // Chosen on UI-PRMD: share of the length expected for a body of this size in a bone's length; the
+  // rest is measured.
   double expected_share = 0.3;
-  // Chosen on UI-PRMD: a joint may be so far from where it was expected without having failed.
+  // Chosen on UI-PRMD: distance of a joint from its prediction that is no failure yet.
   double failure_slack_m = 0.12;
 };
 
 /// Settings of `best`; the switches are for ablations.
 struct BestOptions {
-  /// What is observed are joints after cascaded refinement (recon/refine/refinement_cascade.h): the
-  /// trunk's are the surest, and those of hidden joints are no longer where the surface is that
-  /// hides them.
+  /// The input is joints after cascaded refinement (recon/refine/refinement_cascade.h): the trunk's
+  /// are the most certain, and hidden joints are no longer at the surface that hides
+  /// them.
   bool refined_joints = false;
   bool repair = true;    // gross failures are distinguished from motion
-  bool complete = true;  // joints in doubt come from the posture space
-  bool correct = true;   // learned systematic errors are taken off
-  bool window = true;    // ... by what the person did before, too, where that was learned
-  bool filter = true;    // of each joint, revised a frame later
+  bool complete = true;  // doubtful joints are completed by the posture space
+  bool correct = true;   // learned systematic errors are subtracted
+  bool window = true;    // ... also by the motion of the last half second, if that was learned
+  bool filter = true;    // a filter of each joint, revised a frame later
   bool bones = true;     // constant bone lengths
   BestConstants constants;
 };
 
-/// Which method, what it reads, and the settings of each.
+/// The method, the models it reads, and the settings of each method.
 struct ReconstructorOptions {
   std::string method{kDefaultMethod};               // one of ReconstructionMethods()
-  std::shared_ptr<const PostureDatabase> database;  // needed by the methods that look things up
+  std::shared_ptr<const PostureDatabase> database;  // see MethodInfo::database
   std::string learned_file;  // .ossagp of `ossa learn`: liu-2016, full-gp, exemplar, best
-  std::shared_ptr<const LearnedModels> learned;  // the same, already in memory; goes first
-  std::shared_ptr<const PosturePrior> prior;     // best completes by it, else by the database
-  /// The person's bones, where they were measured before: they stay from the first frame to the
-  /// last. Only for methods that keep bones (MethodInfo).
+  std::shared_ptr<const LearnedModels> learned;  // the same, already in memory; takes precedence
+  std::shared_ptr<const PosturePrior> prior;     // used by best instead of the database
+  /// Bone lengths measured before, metres, kept from the first frame to the last. Only for methods
+  /// that keep bones (MethodInfo).
   std::optional<BoneLengths> bones_m;
   uint64_t seed = 1;  // by hand
   LocalPcaOptions local_pca;
@@ -145,8 +145,8 @@ struct ReconstructorOptions {
   BestOptions best;
 };
 
-/// Throws InputError for an unknown method, a missing database, missing learned models and bones
-/// that cannot be.
+/// Throws InputError for an unknown method, a missing database, missing learned models and
+/// impossible bone lengths.
 std::unique_ptr<Reconstructor> MakeReconstructor(const ReconstructorOptions& options);
 
 }  // namespace ossa::recon
