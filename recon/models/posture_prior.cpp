@@ -233,6 +233,40 @@ bool PosturePrior::IsFile(const std::filesystem::path& path) {
   return IsContainer(path, kPriorFormat);
 }
 
+namespace {
+
+/// `count` numbers, each in [least, most], as a column.
+Eigen::MatrixXd GetColumn(PayloadReader& in, std::string_view field, size_t count, double least,
+                          double most) {
+  const auto values = in.GetVector<float>(field);
+  if (values.size() != count) in.Fail(field, fmt::format("expected {} numbers", count));
+  for (const float v : values) {
+    if (!(v >= least && v <= most)) {
+      in.Fail(field, fmt::format("expected numbers in [{}, {}]", least, most));
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXf>(values.data(), static_cast<Eigen::Index>(count))
+      .cast<double>();
+}
+
+/// Of each mode, seconds.
+Eigen::VectorXd GetCorrelationTimes(PayloadReader& in) {
+  const auto times_s = in.GetVector<float>("correlation times");
+  if (times_s.empty() || times_s.size() > kBoneDims) {
+    in.Fail("correlation times", fmt::format("expected 1 to {} modes", kBoneDims));
+  }
+  for (const float time_s : times_s) {
+    if (!(time_s > 0.5 * kShortest_s && time_s < 2.0 * kLongest_s)) {
+      in.Fail("correlation times", "expected 0.01 s to 2000 s");
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXf>(times_s.data(),
+                                           static_cast<Eigen::Index>(times_s.size()))
+      .cast<double>();
+}
+
+}  // namespace
+
 PosturePrior PosturePrior::Load(const std::filesystem::path& path) {
   const ContainerFormat format = ReadContainerFormat(path, kPriorFormat, 1);
   return NamingTheFile(
@@ -244,37 +278,12 @@ PosturePrior PosturePrior::FromBytes(std::span<const std::byte> bytes, const std
   PayloadReader in(bytes, name);
   PosturePrior out;
   out.frames = in.Get<uint64_t>("frames");
-  /// So many numbers, each in [least, most] metres, square metres or seconds.
-  const auto get = [&](std::string_view field, size_t count, double least, double most) {
-    const auto values = in.GetVector<float>(field);
-    if (values.size() != count) in.Fail(field, fmt::format("expected {} numbers", count));
-    for (const float v : values) {
-      if (!(v >= least && v <= most)) {
-        in.Fail(field, fmt::format("expected numbers in [{}, {}]", least, most));
-      }
-    }
-    Eigen::MatrixXd numbers(static_cast<Eigen::Index>(count), 1);
-    for (size_t i = 0; i < count; ++i) {
-      numbers(static_cast<Eigen::Index>(i), 0) = static_cast<double>(values[i]);
-    }
-    return numbers;
-  };
   constexpr double kLongestBone_m = 10.0;
-  out.mean_m = get("mean", kBoneDims, -kLongestBone_m, kLongestBone_m);
-  out.residual_m2 = get("rest", kBoneDims, 0.0, kLongestBone_m);
-  const auto times = in.GetVector<float>("correlation times");
-  if (times.empty() || times.size() > kBoneDims) {
-    in.Fail("correlation times", fmt::format("expected 1 to {} modes", kBoneDims));
-  }
-  out.correlation_time_s.resize(static_cast<Eigen::Index>(times.size()));
-  for (size_t k = 0; k < times.size(); ++k) {
-    const double time_s = times[k];
-    if (!(time_s > 0.5 * kShortest_s && time_s < 2.0 * kLongest_s)) {
-      in.Fail("correlation times", "expected 0.01 s to 2000 s");
-    }
-    out.correlation_time_s[static_cast<Eigen::Index>(k)] = time_s;
-  }
-  out.modes_m = get("modes", kBoneDims * times.size(), -kLongestBone_m, kLongestBone_m);
+  out.mean_m = GetColumn(in, "mean", kBoneDims, -kLongestBone_m, kLongestBone_m);
+  out.residual_m2 = GetColumn(in, "rest", kBoneDims, 0.0, kLongestBone_m);
+  out.correlation_time_s = GetCorrelationTimes(in);
+  const auto modes = static_cast<size_t>(out.correlation_time_s.size());
+  out.modes_m = GetColumn(in, "modes", kBoneDims * modes, -kLongestBone_m, kLongestBone_m);
   out.modes_m.resize(kBoneDims, out.correlation_time_s.size());
   if (version >= kVersionOfNetwork) {
     const Eigen::Index units = GetUnits(in);
