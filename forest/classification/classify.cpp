@@ -248,6 +248,22 @@ void ForRanges(size_t count, int threads, const Function& function) {
   });
 }
 
+/// The leaf of each sample in each tree, sample × tree.
+std::vector<int32_t> WalkTrees(const ForestModel& model, const ObjectImage& image,
+                               std::span<const int32_t> samples, const ClassifyOptions& options) {
+  const size_t trees = model.data().trees.size();
+  std::vector<int32_t> leaf(samples.size() * trees);
+  const auto walk = options.instructions == InstructionSet::kScalar ? WalkScalar : Walk;
+  ForRanges(samples.size(), options.threads, [&](size_t first, size_t last) {
+    if (first == last) return;  // no pixels: no leaves to point into
+    for (size_t t = 0; t < trees; ++t) {
+      walk({&model.tables().trees[t], &image, samples.subspan(first, last - first)},
+           leaf.data() + first * trees + t, trees);
+    }
+  });
+  return leaf;
+}
+
 }  // namespace
 
 Classification Classify(const ForestModel& model, const depth::DepthView& depth,
@@ -256,7 +272,6 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   Classification result;
   result.class_count = model.class_count();
   result.pixel = PixelsWithReading(depth, pixels);
-  const size_t trees = model.data().trees.size();
   const ObjectImage image = CutOut(depth, camera, result.pixel, model.data().background_mm);
   const std::vector<int32_t> position = BoxPositions(image, depth.width, result.pixel);
   const double pitch_m = Pitch_m(image, camera, model.data().background_mm, result.pixel.size());
@@ -266,16 +281,7 @@ Classification Classify(const ForestModel& model, const depth::DepthView& depth,
   Walked walked;
   walked.stride = (static_cast<size_t>(result.class_count) + 14) / 16 * 16;
   const size_t walkers = sparse.position.size();
-  walked.leaf.resize(walkers * trees);
-  const auto walk = options.instructions == InstructionSet::kScalar ? WalkScalar : Walk;
-  ForRanges(walkers, options.threads, [&](size_t first, size_t last) {
-    if (first == last) return;  // no pixels: no leaves to point into
-    for (size_t t = 0; t < trees; ++t) {
-      walk({&model.tables().trees[t], &image,
-            std::span(sparse.position).subspan(first, last - first)},
-           walked.leaf.data() + first * trees + t, trees);
-    }
-  });
+  walked.leaf = WalkTrees(model, image, sparse.position, options);
   const LeafRows rows = FindRows(model.tables(), walked.leaf);
   const auto contexts = static_cast<size_t>(model.context_count());
   result.context = ContextPosterior(model, rows, GetContextPrior(model, options));
