@@ -6,40 +6,40 @@
 
 namespace ossa::recon {
 
-/// How a bone's length follows from the lengths measured of it.
+/// How a bone's length is estimated from its measurements.
 enum class BoneStatistic {
-  kMean,           // of the measurements, the latest `memory` of them in effect
+  kMean,           // mean, in effect of the latest `memory` measurements
   kExponential,    // each measurement moves the length by `share` of the difference
-  kRunningMedian,  // Robbins and Monro 1951: each moves it a step up or down, the n-th by 1/n; half
-                   // of the measurements may be wrong without moving it far
-  kMedian          // exact, of all measurements, which are kept
+  kRunningMedian,  // Robbins and Monro 1951: each moves it a step up or down, the n-th by 1/n;
+                   // robust against almost half of the measurements
+  kMedian          // exact median of all measurements, which are kept
 };
 
 /// How bone lengths are estimated from one posture after another.
 struct BoneLengthOptions {
   BoneStatistic statistic = BoneStatistic::kMean;
-  int memory = 600;          // measurements until what is older fades, > 0; by hand: 20 s at 30 Hz
+  int memory = 600;          // measurements after which older ones fade, > 0; by hand: 20 s, 30 Hz
   double share = 0.1;        // weight of kExponential, in (0, 1]; by hand
-  bool sides_alike = false;  // left and right are one bone
+  bool sides_alike = false;  // left and right have the same length
 
-  /// Of eq. 5 of Shum 2013 before any reference posture: the first second.
+  /// For eq. 5 of Shum 2013 before any reference posture: the first second.
   static BoneLengthOptions BeforeReference() { return {BoneStatistic::kMean, 30}; }
   /// ... and once there was one: the mean of some ten reference postures.
   static BoneLengthOptions ForReferencePostures() {
     return {BoneStatistic::kExponential, 600, 0.1};
   }
-  /// Of what the network for bones judges frame by frame (recon/refine/bone_estimation.h).
+  /// For the bone network's estimates of single frames (recon/refine/bone_estimation.h).
   static BoneLengthOptions ForNetworkEstimates() { return {BoneStatistic::kMean, 600}; }
-  /// Of what lies between joints, which is wrong for half of a body that is seen from the side.
+  /// For distances of joints, which are wrong for one side of a body that is seen from the side.
   static BoneLengthOptions ForJointDistances() {
     return {BoneStatistic::kRunningMedian, 600, 0.1, true};
   }
-  /// Of a whole recording.
+  /// For a whole recording.
   static BoneLengthOptions ForWholeRecording() { return {BoneStatistic::kMedian}; }
 };
 
-/// Lengths of a person's bones from measurements, metres; which measurements count is the caller's
-/// matter.
+/// Estimates a person's bone lengths, metres, from measurements; the caller decides which ones
+/// count.
 class BoneLengthEstimator {
  public:
   explicit BoneLengthEstimator(const BoneLengthOptions& options = {});
@@ -47,19 +47,19 @@ class BoneLengthEstimator {
   void Add(size_t bone, double length_m);
   /// One measurement of every bone.
   void Add(const BoneLengths& lengths_m);
-  /// What is said of a bone until something is measured.
+  /// Initial length of a bone, until the first measurement.
   void Start(size_t bone, double length_m);
   void Start(const BoneLengths& lengths_m) { lengths_m_ = lengths_m; }
-  /// Lengths that later measurements hardly move: known as well as if the memory were full.
+  /// Initial lengths with the weight of a full memory: later measurements hardly move them.
   void StartKnown(const BoneLengths& lengths_m);
-  /// 0 of bones of which nothing is known.
+  /// 0 for bones without a measurement or an initial length.
   double length_m(size_t bone) const;
   BoneLengths lengths_m() const;
   /// Measurements that count, up to the memory.
   int measurements(size_t bone) const { return counts_[PlaceOf(bone)]; }
 
  private:
-  /// Of bones that count as one, the left one.
+  /// The bone itself or, where sides are alike, the left one.
   size_t PlaceOf(size_t bone) const;
 
   BoneLengthOptions options_;

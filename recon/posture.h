@@ -25,14 +25,14 @@ constexpr Eigen::Index FirstCoordinate(size_t joint) {
 /// As the Kinect SDK's JointTrackingState. A not-tracked joint's position means nothing.
 enum class TrackingState { kNotTracked, kInferred, kTracked };
 
-/// What a sensor or a file says of one person at one time.
+/// The observation of one person at one time by a sensor or in a file.
 struct TrackedPosture {
   Posture posture;
   JointArray<TrackingState> state{};  // starts kNotTracked
-  JointArray<double> confidence{};    // [0, 1]; the tracker's own trust in each joint
+  JointArray<double> confidence{};    // [0, 1], as the tracker reports it
 };
 
-/// With left and right exchanged.
+/// The posture with left and right joints exchanged.
 TrackedPosture SidesExchanged(const TrackedPosture& seen);
 
 /// Orientation of each joint's bone as the Kinect SDK defines it: world (camera) from bone, the
@@ -48,7 +48,7 @@ BoneLengths MeasureBoneLengths(const Posture& posture);
 /// Mean distance to the joints of `target` that are finite, metres; 0 where none is.
 double MeanDistance_m(const Posture& posture, const Posture& target);
 
-/// `seen`, its joints that are not finite where `whole` has them against their parents.
+/// `seen` with its non-finite joints placed relative to their parents as in `whole`.
 Posture FilledFrom(const Posture& whole, const Posture& seen);
 
 }  // namespace ossa::recon

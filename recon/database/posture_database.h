@@ -20,19 +20,19 @@ using PostureVector = Eigen::Matrix<float, kPostureDims, 1>;
 
 /// Joints in enum order, x y z each; and back.
 PostureVector ToVector(const Posture& posture);
-/// The posture of its 60 numbers.
+/// Inverse of ToVector.
 Posture ToPosture(const PostureVector& vector);
 
-/// A motion as the database takes it: postures of any size in any y-up frame facing anywhere.
+/// Input of the database: a motion of a person of any size, in any y-up frame, facing anywhere.
 struct PostureClip {
   std::string name;
   std::vector<Posture> postures;
-  /// World from bone (recon/orientation.h); as many as postures, or none: then what the joints
-  /// tell.
+  /// World from bone (recon/orientation.h), one per posture; empty: computed from the
+  /// joints.
   std::vector<JointOrientations> orientations;
 };
 
-/// Which distance tells postures apart when a database is filtered.
+/// Distance between postures by which a database is filtered.
 enum class DatabaseFilter : uint32_t {
   kSumSquared = 0,  // root of the summed squared joint distances (Shum & Ho 2012 sec. 5.1, Shum
                     // 2013 sec. V-A; they put the threshold on the sum itself)
@@ -48,9 +48,9 @@ struct DatabaseOptions {
                         // average); a bound keeps the query's cost independent of the density
 };
 
-/// Normalised postures of the standard size, filtered, with where they came from and the edges of
-/// the filtered pose graph between them. Share it between reconstructors; who adds to it has a
-/// copy.
+/// Normalised postures of the standard size, filtered, with their source clips and the edges of the
+/// filtered pose graph. Reconstructors share one database; a reconstructor that adds postures makes
+/// a copy.
 class PostureDatabase {
  public:
   /// Of the file: 2. Version 1, which is read too, has other orientations (database_file.cpp).
@@ -59,8 +59,8 @@ class PostureDatabase {
   /// Normalises, retargets, filters within clips then between clips (Plantard 2016 algs. 1-4; with
   /// kSumSquared the same screening under Shum's distance) and connects. Departure: algorithm 2 as
   /// printed keeps a posture that is far from any one other; the text's "same process" is meant,
-  /// far from all kept ones. Throws InputError when no finite posture is given. `stop` is asked now
-  /// and then; once it is true, what comes back is unfinished and of no use.
+  /// far from all kept ones. Throws InputError when no finite posture is given. `stop` is called
+  /// regularly; once it returns true, the result is incomplete and must not be used.
   static PostureDatabase Build(const std::vector<PostureClip>& clips,
                                const DatabaseOptions& options,
                                const std::function<bool()>& stop = {});
@@ -70,7 +70,7 @@ class PostureDatabase {
   static PostureDatabase FromBytes(std::span<const std::byte> bytes, const std::string& name,
                                    uint32_t version = kVersion);
   void Save(const std::filesystem::path& path) const;
-  /// True when the file says that it is one; it may still be damaged.
+  /// Whether the file has the format's magic number; it may still be damaged.
   static bool IsFile(const std::filesystem::path& path);
 
   int size() const { return static_cast<int>(clip_of_.size()); }
@@ -92,15 +92,15 @@ class PostureDatabase {
   double edge_threshold_m() const { return edge_threshold_m_; }  // thres_2, Plantard 2016 eq. 2
   int64_t source_postures() const { return source_postures_; }   // before the filters
 
-  /// Whether a kept posture is so near to the normalised posture of the standard size that the
-  /// filter, which the database was built with, would drop the latter.
+  /// Whether the filter with which the database was built would drop this normalised posture of the
+  /// standard size, because a kept one is too near.
   bool Has(const PostureVector& posture) const;
-  /// One more normalised posture of the standard size and its orientations, unconnected to the
-  /// graph; the mean stays. Copies no other posture, but for one time in so many as there are.
+  /// Adds a normalised posture of the standard size and its orientations, unconnected to the graph;
+  /// the mean does not change. Amortised constant time. Invalidates postures().
   void Add(const PostureVector& posture, const JointOrientations& orientations,
            const std::string& clip);
 
-  /// For ablations: filtered once more with a larger thres_1, and with fewer edges a node.
+  /// For ablations: filtered again with a larger thres_1, or with fewer edges per node.
   PostureDatabase Filtered(double threshold_m) const;
   PostureDatabase WithEdges(int most_edges) const;
 

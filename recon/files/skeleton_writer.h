@@ -11,9 +11,9 @@ namespace ossa::recon {
 
 struct BodyMesh;  // recon/fit/body_mesh.h
 
-/// How skeletons are written, where the format has a choice.
+/// Options of the formats that have some.
 struct SkeletonWriteOptions {
-  BvhNames names = BvhNames::kSdk;            // of a .bvh or .glb; a .glb's kSdk is VRM's
+  BvhNames names = BvhNames::kSdk;            // of a .bvh or .glb; for a .glb kSdk means VRM's
   std::shared_ptr<const BodyMesh> body = {};  // the skin of a .glb; none: bones alone
 };
 
@@ -30,23 +30,23 @@ struct SkeletonWriteOptions {
 /// whole lines.
 class SkeletonWriter {
  public:
-  /// Throws InputError for another extension and for a place that cannot be written.
+  /// Throws InputError for another extension and for a path that cannot be written.
   explicit SkeletonWriter(const std::filesystem::path& path,
                           const SkeletonWriteOptions& options = {});
   ~SkeletonWriter();
 
-  /// Throws DiskFull when it does not fit.
+  /// Throws DiskFull if the frame does not fit.
   void Write(const SkeletonFrame& frame);
-  /// The shape of the body that a surface fit found (PersonShape); the last one said counts. Only a
-  /// .glb shows it; people of whom none is known have the mean body's.
+  /// Shape of a person by the surface fit (PersonShape); the last call counts. Only a .glb shows
+  /// it; people without one have the mean shape.
   void SetShape(int id, const ShapeVector& shape);
   /// Throws InputError for a .bvh or .glb of nobody, or that would be too long to be read: a gap in
   /// a recording is filled in a .bvh. Throws DiskFull.
   void Finish();
-  /// In place of Finish(), after DiskFull: ends the file after the last frame that is whole in it;
-  /// of a .bvh or .glb, after one for which there is room, maybe a quarter of all before that. What
-  /// waited for it on the disk is taken into memory. Returns how many frames were kept; 0: none,
-  /// and nothing is left.
+  /// Instead of Finish(), after DiskFull: ends the file after its last complete frame; a .bvh or
+  /// .glb after as many frames as there is room for, maybe a quarter less. Its temporary data on
+  /// the disk are moved to memory.
+  /// Returns the number of frames kept; with 0 no file is left.
   int64_t FinishWithWhatFits();
   /// Frames written.
   int64_t frame_count() const { return frame_count_; }

@@ -4,16 +4,16 @@
 
 namespace ossa::recon {
 
-/// Seconds from one frame of a person to the next. A time that repeats, hardly grows, or runs back
-/// by a few milliseconds, is the logger's doing, not the person's: such a frame counts as one that
-/// comes as long after the frame before as that came after its own.
+/// Time steps between the frames of a person, seconds. A time that repeats, hardly grows, or runs
+/// back by a few milliseconds is an artefact of logging: such a frame gets the same step as the
+/// frame before it.
 class FrameSteps {
  public:
-  /// By hand, a sixth of a frame: how far back a time may run and still be the logger's doing.
+  /// By hand, a sixth of a frame: how far a time may run back and still be an artefact.
   static constexpr double kJitter_s = 0.005;
 
-  /// Nothing for the first frame, after a gap and when time runs backwards: what was before says
-  /// nothing of now.
+  /// The step to `time_s`. Nothing for the first frame, after a gap and when time runs backwards:
+  /// earlier frames are then of no use.
   std::optional<double> To(double time_s) {
     const double step_s = time_s - last_time_s_;
     if (step_s < kShortest_s && step_s > -kJitter_s) return step_s_;

@@ -3,7 +3,7 @@
 
 namespace ossa::recon {
 
-// Filters of one joint's position, metres and seconds. Each starts at its first value.
+// Filters of one joint's position, in metres and seconds. Each starts at its first value.
 
 /// The Kinect SDK's NUI_TRANSFORM_SMOOTH_PARAMETERS (Azimi, "Skeletal Joint Smoothing White Paper",
 /// Microsoft 2012).
@@ -12,9 +12,9 @@ struct HoltOptions {
   double smoothing = 0.5;                // weight, [0, 1): 0 = raw; 1 - alpha of the SDK's paper
   double correction = 0.5;               // weight, [0, 1]: trend gain gamma of the SDK's paper
   double prediction = 0.5;               // frames to predict into the future, >= 0; the SDK's
-  double jitter_radius_m = 0.05;         // moves below are damped further, > 0; the SDK's
-  double max_deviation_radius_m = 0.04;  // never farther than this from raw, > 0; the SDK's
-  /// The white paper's code begins with the mean of the first two values, before it smooths.
+  double jitter_radius_m = 0.05;         // smaller moves are damped further, > 0; the SDK's
+  double max_deviation_radius_m = 0.04;  // largest distance from the input, > 0; the SDK's
+  /// Start with the mean of the first two values, as the white paper's code does.
   bool averages_second = true;
 
   /// The SDK's defaults: 0.5 0.5 0.5 0.05 0.04.
@@ -22,7 +22,7 @@ struct HoltOptions {
   /// The white paper's second and third recommendation: smoother, later.
   static HoltOptions Smooth() { return {0.5, 0.1, 0.5, 0.1, 0.1}; }
   static HoltOptions VerySmooth() { return {0.7, 0.3, 1.0, 1.0, 1.0}; }
-  /// Of the method holt: it predicts nothing, so that what it says is of the frame itself.
+  /// For the method holt: without prediction, so that the result is for the frame itself.
   static HoltOptions WithoutPrediction() { return {0.5, 0.5, 0.0, 0.05, 0.04, false}; }
 };
 
@@ -33,7 +33,7 @@ class HoltFilter {
   HoltFilter() : HoltFilter(HoltOptions::WithoutPrediction()) {}
   explicit HoltFilter(const HoltOptions& options) : options_(options) {}
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m);
-  /// What was filtered until now stays.
+  /// Keeps the filter's state.
   void SetOptions(const HoltOptions& options) { options_ = options; }
 
  private:
@@ -44,17 +44,17 @@ class HoltFilter {
   Eigen::Vector3d trend_m_ = Eigen::Vector3d::Zero();
 };
 
-/// The two parameters of the One-Euro filter, and which speed it goes by.
+/// The two parameters of the One-Euro filter, and the speed that it uses.
 struct OneEuroOptions {
   double min_cutoff_hz =
       1.5;  // at rest, > 0; by hand, as Casiez 2012 says: until a still joint does not jitter
   double beta_per_m = 4.0;  // Hz more per m/s, >= 0; by hand, until a fast one does not lag
-  /// The speed is that of the measurements. False: from the last estimate to the new measurement.
+  /// True: speed between measurements. False: from the last estimate to the new measurement.
   bool speed_of_measurements = true;
 
-  /// Of `ossa track --smoothing one-euro`.
+  /// For `ossa track --smoothing one-euro`.
   static OneEuroOptions Default() { return {}; }
-  /// Of the methods one-euro and best.
+  /// For the methods one-euro and best.
   static OneEuroOptions ForMethods() { return {1.5, 3.0, false}; }
 };
 
@@ -65,7 +65,7 @@ class OneEuroFilter {
   explicit OneEuroFilter(const OneEuroOptions& options) : options_(options) {}
   /// `dt_s` > 0.
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s);
-  /// What was filtered until now stays.
+  /// Keeps the filter's state.
   void SetOptions(const OneEuroOptions& options) { options_ = options; }
 
  private:
@@ -82,7 +82,7 @@ class VelocityKalman {
   /// acceleration: standard deviation of the acceleration, m/s^2; noise of one measurement, metres.
   explicit VelocityKalman(double acceleration = 6.0, double noise_m = 0.02)
       : acceleration_(acceleration), noise_m_(noise_m) {}
-  /// trust in (0, 1] divides the measurement's variance; 0: prediction only.
+  /// `trust` in (0, 1] divides the measurement's variance; 0: prediction only. `dt_s` > 0.
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s, double trust);
 
  private:

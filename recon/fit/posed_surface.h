@@ -13,32 +13,32 @@ namespace ossa::recon {
 Eigen::Matrix3d ToRotation(const Eigen::Vector3d& turn_rad);
 Eigen::Vector3d ToRotationVector(const Eigen::Matrix3d& rotation);
 
-/// What tells one pose and shape of a body from others.
+/// Pose and shape of a body surface.
 struct SurfacePose {
-  std::array<Eigen::Matrix3d, kSegmentCount> parent_from_segment;  // of the pelvis: camera from it
+  std::array<Eigen::Matrix3d, kSegmentCount> parent_from_segment;  // pelvis: camera from pelvis
   Eigen::Vector3d pelvis_m = Eigen::Vector3d::Zero();              // its joint, camera space
   ShapeVector shape = ShapeVector::Zero();
 
   SurfacePose() { parent_from_segment.fill(Eigen::Matrix3d::Identity()); }
 };
 
-/// A body surface in a pose, by forward kinematics. Camera space, metres. Holds its memory from
-/// construction on.
+/// A body surface in a pose, by forward kinematics. Camera space, metres. Allocates only when it is
+/// constructed.
 class PosedSurface {
  public:
-  /// Borrows the surface.
+  /// The surface must outlive this object.
   explicit PosedSurface(const BodySurface& surface);
 
-  /// Segments alone: joints are known then, points are not.
+  /// Poses the segments: joints and landmarks are valid afterwards, points are not.
   void PoseSegments(const SurfacePose& pose);
-  /// Points, too, and which of them face the camera.
+  /// Poses the points, after PoseSegments, and finds those that face the camera.
   void PosePoints();
 
   const BodySurface& surface() const { return surface_; }
   const SurfacePose& pose() const { return pose_; }
   const Eigen::Matrix3d& camera_from(size_t segment) const { return camera_from_[segment]; }
   const Eigen::Vector3d& joint_m(size_t segment) const { return joint_m_[segment]; }
-  /// How the segment's joint moves with shape: d joint_m / d shape.
+  /// Derivative of the segment's joint with respect to shape: d joint_m / d shape.
   const ShapeBasis& joint_by_shape_m(size_t segment) const { return joint_by_shape_m_[segment]; }
   Eigen::Vector3d LandmarkAt(size_t joint) const;
   Posture Landmarks() const;

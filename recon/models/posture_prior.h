@@ -14,10 +14,10 @@ namespace ossa::recon {
 
 // Constants: chosen on validation subjects (`ossa experiment shum-2013 --seed 11`).
 
-/// The prior that comes with ossa, among the shipped files.
+/// File name of the shipped prior.
 inline constexpr const char* kShippedPrior = "posture.ossaprior";
 
-/// A motion that postures are learned of: any size, any y-up frame, facing anywhere.
+/// A motion to learn from: a person of any size, in any y-up frame, facing anywhere.
 struct PriorClip {
   std::vector<Posture> postures;
   double frame_s = 1.0 / 30.0;
@@ -38,19 +38,19 @@ struct PosturePriorOptions {
   void Check() const;
 };
 
-/// Ours, of `best`: how people hold themselves and how fast that changes, as one Gaussian process
-/// in time. A posture's bones are the mean plus independent modes, each an Ornstein-Uhlenbeck
-/// process of variance 1 and its own correlation time: principal components, turned so that none
-/// tells of another a lag later (slow feature analysis, Wiskott & Sejnowski 2002, of the symmetric
-/// part). So a mean, a covariance and a lagged covariance of all postures learned from are all it
-/// holds: nobody's posture. It knows no left from right: every motion counts mirrored, too.
+/// Ours, used by `best`: a prior of postures and of their change over time, as one Gaussian
+/// process. A posture's bones are the mean plus independent modes, each an Ornstein-Uhlenbeck
+/// process of variance 1 with its own correlation time: principal components, rotated so that they
+/// are uncorrelated after a lag, too (slow feature analysis, Wiskott & Sejnowski 2002, of the
+/// symmetric part). It holds only a mean, a covariance and a lagged covariance of the training
+/// postures, not the postures themselves. It is symmetric: every motion is also learned mirrored.
 struct PosturePrior {
   BoneVector mean_m = BoneVector::Zero();
   Eigen::MatrixXd modes_m;                      // kBoneDims x modes: bones = mean + modes * u
   BoneVector residual_m2 = BoneVector::Zero();  // variance of each number that no mode explains
   Eigen::VectorXd correlation_time_s;           // correlation time of each mode, slowest first
-  uint64_t frames = 0;                          // learned from
-  PriorNetwork network;                         // what no Gaussian says; may be empty
+  uint64_t frames = 0;                          // number of training frames
+  PriorNetwork network;                         // non-Gaussian correction; may be empty
 
   /// Throws InputError when the clips hold no moving, finite postures.
   static PosturePrior Learn(const std::vector<PriorClip>& clips,
@@ -58,22 +58,22 @@ struct PosturePrior {
 
   /// .ossaprior: reads refuse damaged, truncated and hostile files by name and byte.
   static PosturePrior Load(const std::filesystem::path& path);
-  /// Of a payload; older versions are still read, without what they lack.
+  /// From a payload; older versions are still read, without what they lack.
   static PosturePrior FromBytes(std::span<const std::byte> bytes, const std::string& name,
                                 uint32_t version = kVersion);
   /// Version 2 added the network. Without one, files are of version 1.
   static constexpr uint32_t kVersion = 2;
   void Save(const std::filesystem::path& path) const;
-  /// True when the file says that it is one; it may still be damaged.
+  /// Whether the file has the format's magic number; it may still be damaged.
   static bool IsFile(const std::filesystem::path& path);
 };
 
-/// The clip normalised, of the standard size; a frame that is not finite ends the run before it.
+/// The clip normalised to the standard size, split into runs at frames that are not finite.
 std::vector<std::vector<BoneVector>> NormalisedRuns(const PriorClip& clip);
 
-/// Vectors of the bones as they are.
+/// The bone vectors of a posture, metres, not normalised.
 BoneVector ToBoneVector(const Posture& posture);
-/// The way back, root at the origin.
+/// Inverse of ToBoneVector, with the root at the origin.
 Posture PostureFromBones(const BoneVector& bones_m);
 
 }  // namespace ossa::recon

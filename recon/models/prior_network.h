@@ -13,24 +13,24 @@ inline constexpr int kBoneDims = 3 * (kJointCount - 1);
 /// A posture as 57 numbers, metres: x y z of each bone, in the order of the joints they end in.
 using BoneVector = Eigen::Matrix<double, kBoneDims, 1>;
 
-/// What a PriorNetwork reads of a step of a PriorFilter, joints 1 to 19 in enum order, the standard
-/// body: the bones that are expected (57), how clearly each joint is seen (0 not at all, 1 exactly;
-/// 19), and how far from where it is expected it is seen (metres, 0 of joints that are not; 57).
+/// Inputs of a PriorNetwork in a step of a PriorFilter, joints 1 to 19 in enum order, on the
+/// standard body: the predicted bones (57, metres), the quality of each joint's observation (19; 0:
+/// not seen, 1: exact), and its offset from the prediction (57, metres; 0 for unseen joints).
 inline constexpr int kPriorInputs = 2 * kBoneDims + kJointCount - 1;
-/// What the prior's network reads.
+/// The inputs of a PriorNetwork.
 using PriorInput = Eigen::Matrix<float, kPriorInputs, 1>;
 
-/// How clearly a joint is seen whose place is known with that standard deviation; 0: not seen.
+/// Quality, [0, 1], of an observation with this standard deviation, metres; 0: not seen.
 float ObservationQuality(double sd_m);
 
-/// What a Gaussian prior cannot say of how people hold themselves: knees bend one way only, and who
-/// bends down holds the hands otherwise than who squats. A network that knows how far the bones lie
-/// from where a PriorFilter expects them: kPriorInputs -> kBoneDims, in kBoneStep_m. No size of its
-/// own: it is learned for one PosturePrior, which it is part of.
+/// Non-Gaussian part of a pose prior: knees bend one way only, and hands hang differently when
+/// bending down than when squatting. A network that estimates the offset of the bones from a
+/// PriorFilter's prediction: kPriorInputs -> kBoneDims, in units of kBoneStep_m. It is trained for
+/// the PosturePrior of which it is a part.
 struct PriorNetwork : Perceptron {
   static constexpr double kBoneStep_m = 0.1;  // a unit of the network's outputs, by hand
 
-  /// To be added to the bones that were expected.
+  /// Correction of the predicted bones, metres, to be added.
   BoneVector Correction_m(const PriorInput& input) const {
     return kBoneStep_m * Run(input.transpose()).row(0).transpose().cast<double>();
   }

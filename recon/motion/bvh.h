@@ -29,44 +29,44 @@ struct BvhFile {
   std::vector<BvhJoint> joints;
   double frame_s = 1.0 / 30.0;
   std::vector<double> values;  // row-major, frame x channel, channels in file order
-  /// What was odd in the text and how it was read, a line each.
+  /// Oddities of the text and how they were read, a line each.
   std::vector<std::string> warnings{};
 
   size_t ChannelCount() const;
   size_t FrameCount() const;
 };
 
-/// World place and rotation of every joint in one frame, file units.
+/// World position and rotation of every joint in one frame, file units.
 struct BvhFramePose {
   std::vector<Eigen::Vector3d> position;
   std::vector<Eigen::Quaterniond> rotation;
 };
-/// The pose of one frame, 0 the first.
+/// The pose of one frame, counted from 0.
 BvhFramePose ComputePose(const BvhFile& bvh, size_t frame);
 
-/// Reads any legal file, and what programs write beside the rules: channel order per joint, 0 to 6
-/// channels, several roots, line ends of any kind, more or fewer rows than the header announces
-/// (those that are there, with a warning). Throws InputError naming the line, of a cut last row,
-/// too. `source` names the text in messages.
+/// Reads any valid file and common deviations: any channel order per joint, 0 to 6 channels,
+/// several roots, line ends of any kind, more or fewer rows than the header says (with a warning).
+/// Throws InputError naming the line, also for a truncated last row. `source` names the text in
+/// messages.
 BvhFile ParseBvh(std::string text, const std::string& source);
-/// Reads a BVH file in any channel order. Throws InputError naming file and line.
+/// ParseBvh of a file. Throws InputError naming file and line.
 BvhFile ReadBvh(const std::filesystem::path& path);
 
-/// The skeletons of a file of several roots, a file each; the file itself where there is one.
+/// Splits a file with several roots into one per root; returns the file itself if it has one.
 std::vector<BvhFile> SplitRoots(BvhFile bvh);
 
-/// Writes with the joint's own channel order; the file appears only when complete.
+/// The text of a BVH file, with each joint's own channel order.
 std::string FormatBvh(const BvhFile& bvh);
-/// Writes a BVH file; it appears when it is complete.
+/// Writes a BVH file, which appears under its name only when complete.
 void WriteBvh(const BvhFile& bvh, const std::filesystem::path& path);
 
-/// Skeletons are read from a BVH of at most so many bytes: six hours of motion or more.
+/// Largest BVH that is read as skeletons, bytes: six hours of motion or more.
 inline constexpr size_t kMostBvhBytes = size_t{1} << 29;
 
-/// Whose names and hierarchy the joints of a written BVH have.
+/// Names and hierarchy of the joints of a written BVH.
 enum class BvhNames {
-  kSdk,  // the SDK's 20 joints, with a helper wherever bones branch: nothing is lost
-  // A humanoid that retargeting tools map by themselves, at rest in a T-pose that faces +z:
+  kSdk,  // the SDK's 20 joints, with helper joints where bones branch: nothing is lost
+  // A humanoid that retargeting tools recognise, at rest in a T-pose that faces +z:
   kCmu,     // Hips, Spine, LeftUpLeg ...
   kMixamo,  // the same with mixamorig: before them
   kVrm,     // hips, spine, leftUpperLeg ...
@@ -76,10 +76,10 @@ enum class BvhNames {
 struct BvhExportOptions {
   BvhNames names = BvhNames::kSdk;
   std::optional<int> body_id;  // which body of the sequence; none: the one seen in most frames
-  /// BVH needs a fixed step; the sequence is resampled to it by time, joints moving straight from
-  /// frame to frame.
+  /// BVH needs a fixed step; the sequence is resampled to it by linear interpolation of the
+  /// joints.
   double frame_s = 1.0 / 30.0;
-  /// A longer text is refused: a gap in a recording, a day at most, is filled like all else.
+  /// Longer texts are refused, because gaps in a recording, a day at most, are filled.
   size_t most_bytes = kMostBvhBytes;
 };
 
@@ -95,8 +95,8 @@ struct BvhExportOptions {
 /// are in step with each other and the recording. Throws InputError when no frame has the body, or
 /// its text would surely exceed the options' bytes.
 BvhFile SkeletonToBvh(const SkeletonSequence& sequence, const BvhExportOptions& options = {});
-/// The same into a file, without ever holding more than a frame of it; the file appears only when
-/// complete.
+/// The same into a file, with one frame in memory at a time; the file appears under its name only
+/// when complete.
 void WriteSkeletonAsBvh(const SkeletonSequence& sequence, const std::filesystem::path& path,
                         const BvhExportOptions& options = {});
 

@@ -8,16 +8,16 @@
 
 namespace ossa::recon {
 
-// Constants: by convention: 30 Hz and seed 1; AMC as its libraries say.
+// Constants: by convention: 30 Hz and seed 1; AMC as its libraries state.
 
 struct MocapOptions {
   double frame_s = 1.0 / 30.0;  // clips are resampled to this step
   uint64_t seed = 1;            // variation of the authored clips
-  /// Frames a second of AMC files, which do not say; 0: 120, at which CMU and HDM05 publish, and
-  /// the first such clip has a warning of it.
+  /// Frame rate of AMC files, which do not state it, Hz; 0: 120, as CMU and HDM05 publish them,
+  /// with a warning in the first such clip.
   double amc_hz = 0.0;
   std::string mapping_file;  // bone names of an unknown conversion; "" = the known ones only
-  /// Asked before each file; true: no more are read, and those until then are what is returned.
+  /// Called before each file; true ends the reading, and the clips read so far are returned.
   std::function<bool()> stop = {};
 };
 
