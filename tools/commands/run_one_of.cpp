@@ -24,7 +24,7 @@ std::string HelpText(std::span<const Command> commands) {
   for (const Command& command : commands) {
     text += fmt::format("  {:<12} {}\n", command.name, command.summary);
   }
-  return text + "\n'ossa COMMAND --help' says everything about one.\n";
+  return text + "\n'ossa COMMAND --help' shows a command's options and examples.\n";
 }
 
 // What a command was called in versions before.
