@@ -77,8 +77,8 @@ void FakenectDump::Write(const DepthFrame& frame) {
   const std::string name = FileName('d', time_s, "pgm");
   AtomicFile file(folder_ / name);
   file.stream() << "P5 640 480 65535\n";
-  std::vector<uint16_t> room;
-  const std::span<const uint16_t> depth_mm = PackedDepth(frame.view(), room);
+  std::vector<uint16_t> scratch;
+  const std::span<const uint16_t> depth_mm = PackedDepth(frame.view(), scratch);
   file.stream().write(reinterpret_cast<const char*>(depth_mm.data()),
                       static_cast<std::streamsize>(depth_mm.size_bytes()));
   file.CommitOneOfMany();

@@ -177,8 +177,8 @@ struct OniRecorder::State {
                        SizeText(frame.camera.width, frame.camera.height) + " and " +
                        std::to_string(frame.pixel_count()) + " depths");
     }
-    std::vector<uint16_t> room;
-    const std::span<const uint16_t> depth_mm = PackedDepth(frame.view(), room);
+    std::vector<uint16_t> scratch;
+    const std::span<const uint16_t> depth_mm = PackedDepth(frame.view(), scratch);
     const auto largest = std::max_element(depth_mm.begin(), depth_mm.end());
     if (largest != depth_mm.end() && *largest > kLargestOniDepth_mm) {
       throw InputError(place + "expected depths of at most " + std::to_string(kLargestOniDepth_mm) +
