@@ -342,9 +342,11 @@ class Start(unittest.TestCase):
         made, first = self.track(""), self.track("", 1)
         self.assertFalse(self.cache.exists())
         self.assertEqual(self.track(str(self.cache)), made)
-        used, without = self.start(), self.start(cache="")
+        # The quickest of three: beside other work one start in some takes twice the processor time.
+        used = min((self.start() for _ in range(3)), key=processor_s)
+        without = min((self.start(cache="") for _ in range(3)), key=processor_s)
         self.assertEqual((self.folder / "out.jsonl").read_bytes(), first)
-        self.assertLess(processor_s(used), 0.8 * processor_s(without))  # 0.4 measured, whatever the hour
+        self.assertLess(processor_s(used), 0.8 * processor_s(without))  # 0.4 measured
         self.assertLess(used.ru_maxrss, 165 * 1024)  # KiB; 148 MiB measured, other machines have other threads
 
     def start(self, frames=1, cache=None):
