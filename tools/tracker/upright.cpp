@@ -89,30 +89,42 @@ void TurnBack(BodyFrame& frame, int quarters) {
   TurnBack(frame.probabilities, quarters);
 }
 
-int UprightFinder::BestTurn(const depth::DepthFrame& frame, const ScoreOfTurn& score) const {
-  std::array<double, 4> scores{};
-  scores[static_cast<size_t>(quarters_)] = score(frame, quarters_);
-  if (scores[static_cast<size_t>(quarters_)] >= options_.sure) return quarters_;
-  for (int turn = 0; turn < 4; ++turn) {
-    if (turn != quarters_) scores[static_cast<size_t>(turn)] = score(frame, turn);
+// The present way first: if somebody is sure that way, no other is asked. False while some are
+// left.
+bool UprightFinder::AskWays(const depth::DepthFrame& frame, int most, const ScoreOfTurn& score) {
+  if (asked_ == 0) scores_ = {};
+  for (; most > 0 && asked_ < kTurns; --most) {
+    const int turn = (quarters_ + asked_++) % kTurns;
+    double& found = scores_[static_cast<size_t>(turn)];
+    found = score(frame, turn);
+    if (turn == quarters_ && found >= options_.sure) asked_ = kTurns;
   }
+  return asked_ == kTurns;
+}
+
+int UprightFinder::BestTurn() const {
+  const double present = scores_[static_cast<size_t>(quarters_)];
+  if (present >= options_.sure) return quarters_;
   const auto best =
-      static_cast<int>(std::max_element(scores.begin(), scores.end()) - scores.begin());
-  const double most = scores[static_cast<size_t>(best)];
-  return most >= options_.sure && most > scores[static_cast<size_t>(quarters_)] + options_.clearly
-             ? best
-             : -1;
+      static_cast<int>(std::max_element(scores_.begin(), scores_.end()) - scores_.begin());
+  const double most = scores_[static_cast<size_t>(best)];
+  return most >= options_.sure && most > present + options_.clearly ? best : -1;
 }
 
 bool UprightFinder::Look(const depth::DepthFrame& frame, const ScoreOfTurn& score) {
   const double since_s = frame.time_s - looked_s_, alone_s = frame.time_s - followed_s_;
   const bool in_doubt = agreeing_ > 0 || !std::isfinite(since_s);
-  if ((alone_s >= 0 && alone_s < options_.every_s) ||
-      (!in_doubt && since_s >= 0 && since_s < options_.every_s)) {
+  const double step_s = frame.time_s - std::exchange(before_s_, frame.time_s);
+  const bool is_shared = !in_doubt && step_s >= 0 && step_s < options_.shared_s;
+  if (alone_s >= 0 && alone_s < options_.every_s) {
+    asked_ = 0;
     return false;
   }
-  looked_s_ = frame.time_s;
-  const int best = BestTurn(frame, score);
+  if (asked_ == 0 && !in_doubt && since_s >= 0 && since_s < options_.every_s) return false;
+  if (asked_ == 0) looked_s_ = frame.time_s;
+  if (!AskWays(frame, is_shared ? 1 : kTurns, score)) return false;
+  asked_ = 0;
+  const int best = BestTurn();
   agreeing_ = best >= 0 && (agreeing_ == 0 || best == candidate_) ? agreeing_ + 1 : 0;
   candidate_ = best;
   if (best == quarters_) {

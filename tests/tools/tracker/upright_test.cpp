@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -211,9 +212,10 @@ TEST(UprightFinder, AWrongTurnIsTakenBackWhenSomebodyStandsUpright) {
 
 // How often somebody is looked for in `frames` at 30 Hz, in which people are seen as these scores
 // say.
-int CountLooks(UprightFinder& finder, int frames, const std::vector<double>& scores) {
+int CountLooks(UprightFinder& finder, int frames, const std::vector<double>& scores,
+               int first = 0) {
   int asked = 0;
-  for (int i = 0; i < frames; ++i) {
+  for (int i = first; i < first + frames; ++i) {
     depth::DepthFrame frame;
     frame.time_s = i / 30.0;
     finder.Look(frame, [&](const depth::DepthFrame&, int turn) {
@@ -224,7 +226,27 @@ int CountLooks(UprightFinder& finder, int frames, const std::vector<double>& sco
   return asked;
 }
 
-// Each of the four ways costs as much as tracking does.
+// Each of the four ways costs as much as tracking does: only the first look is at one frame.
+TEST(UprightFinder, FramesOfARecordingShareALookWhereNobodyIsSeen) {
+  UprightFinder finder;
+  std::vector<int> asked(60, 0);
+  for (size_t i = 0; i < asked.size(); ++i) {
+    depth::DepthFrame frame;
+    frame.time_s = static_cast<double>(i) / 30.0;
+    finder.Look(frame, [&](const depth::DepthFrame&, int) { return ++asked[i], 0.0; });
+  }
+  EXPECT_EQ(asked[0], 4);
+  EXPECT_EQ(std::accumulate(asked.begin() + 1, asked.end(), 0), 4);
+  EXPECT_EQ(*std::max_element(asked.begin() + 1, asked.end()), 1);
+}
+
+TEST(UprightFinder, ASharedLookTurnsTheImagesToo) {
+  UprightFinder finder;
+  CountLooks(finder, 40, {0, 0, 0, 0});  // nobody comes before the second look
+  EXPECT_EQ(CountLooks(finder, 40, {0, 0, 0.9, 0}, 40), 4 + 2 * 4);
+  EXPECT_EQ(finder.quarters(), 2);
+}
+
 TEST(UprightFinder, LooksOnceASecondWhereNobodyIsSeen) {
   UprightFinder finder;
   EXPECT_EQ(CountLooks(finder, 60, {0, 0, 0, 0}), 2 * 4);
