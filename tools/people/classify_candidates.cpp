@@ -242,8 +242,7 @@ void LookAgainAroundHeads(const Classifying& with, std::vector<Detection>& detec
 
 // Pieces that are nobody, and of which most are too small to be asked about, may be one person of
 // whom an arm or something held up occludes the middle.
-void LookAgainOverEdges(const Classifying& with, std::vector<Detection>& detections,
-                        std::vector<Decision>& decided) {
+std::optional<Detection> FindSomebodyInPieces(const Classifying& with) {
   const CandidateOptions& options = with.options.candidates;
   const auto classify = [&](Region region) {
     Detection detection =
@@ -260,8 +259,17 @@ void LookAgainOverEdges(const Classifying& with, std::vector<Detection>& detecti
         IsPersonSized(region, options) || GoesOnBelow(with.scene.grid, region, options.join);
     return !shows_enough || !IsJudgedByPose(whole) || !Passes(whole, with.options.initiation);
   });
-  const auto whole = std::ranges::max_element(wholes, {}, MeasureLikeness);
-  if (whole == wholes.end()) return;
+  const auto best = std::ranges::max_element(wholes, {}, MeasureLikeness);
+  if (best == wholes.end()) return {};
+  best->is_joined = true;
+  return std::move(*best);
+}
+
+// A person that was found in pieces takes the place of what these were.
+void LookAgainOverEdges(const Classifying& with, std::vector<Detection>& detections,
+                        std::vector<Decision>& decided) {
+  auto whole = FindSomebodyInPieces(with);
+  if (!whole) return;
   const std::vector<int>& cells = whole->candidate.region.cells;
   const auto is_part = [&](const Detection& detection) {
     return std::ranges::any_of(detection.candidate.region.cells, [&](int cell) {
@@ -273,7 +281,6 @@ void LookAgainOverEdges(const Classifying& with, std::vector<Detection>& detecti
       decided.push_back(DescribeDetection(detection, Rule::kMerged, whole->evidence.score));
   }
   std::erase_if(detections, is_part);
-  whole->is_joined = true;
   detections.push_back(std::move(*whole));
 }
 
