@@ -9,35 +9,16 @@
 #include "recon/methods/reconstructor.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/commands/command.h"
+#include "tools/commands/model_options.h"
 #include "tools/commands/process.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::commands {
 namespace {
 
-void AddModelOptions(CLI::App& app, tracker::ModelFiles& files) {
-  app.add_option("--model", files.forest, "forest model, .ossa (default: the shipped one)");
-  app.add_option(
-      "--database", files.database,
-      "posture database, .ossadb (default: the shipped one; best uses the shipped prior instead)");
-  app.add_option("--prior", files.prior,
-                 ".ossaprior of 'ossa prior', for best (default: the shipped one)");
-  app.add_option("--learned", files.learned,
-                 ".ossagp of 'ossa learn', for the methods that learn, or none (default: the "
-                 "shipped one, with best and the shipped model)");
-  app.add_option("--refinement,--look", files.refinement,
-                 ".ossarefine of 'ossa refine', for best and --posture refined, or none (default: "
-                 "the shipped one, with best and the shipped model); one that was trained on "
-                 "people seen from the ceiling is used for cameras there only");
-  app.add_option("--pose-network", files.pose_network,
-                 ".ossanet of tools/train_pose_network, shipped, or none: a network that reads all "
-                 "joints off the whole person, fused with the refined joints, except under the "
-                 "ceiling (default: shipped, with the shipped refinement)");
-  app.add_option("--surface", files.surface,
-                 ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
-}
-
 void AddFitOptions(CLI::App& app, TrackOptions& options) {
+  app.add_option("--surface", options.files.surface,
+                 ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
   app.add_option("--fit", options.fit,
                  "fit a body's surface to the depth image, starting from the refined joints: on or "
                  "off (default: on if there are refined joints)")
@@ -70,10 +51,7 @@ void AddViewpointOptions(CLI::App& app, TrackOptions& options) {
   tracker::TrackerOptions& t = options.tracker;
   app.add_option("--mode", options.mode, "standing (20 joints) or seated (the upper ten)")
       ->check(CLI::IsMember({"standing", "seated"}));
-  app.add_option(
-         "--mount", options.mount,
-         "mounting of the camera: level, ceiling (2.2 to 4 m up, looking down) or auto (default)")
-      ->check(CLI::IsMember({"auto", "level", "ceiling"}));
+  AddMountOption(app, options.mount);
   app.add_flag("--near", t.near_range, "near range: people within 3 m of a level camera only");
   app.add_option("--users", t.max_users, "maximum number of people, 1 to 6 (default 6)")
       ->check(CLI::Range(1, 6));
@@ -296,8 +274,7 @@ tracker::TrackerOptions MakeTrackerOptions(const TrackOptions& options) {
   made.mechanics = options.mechanics.build;
   made.scene = options.mechanics.Scene();
   if (!options.smoothing.empty()) made.smoothing = tracker::SmoothingPreset(options.smoothing);
-  if (options.mount == "level") made.mount = tracker::Mount::kLevel;
-  if (options.mount == "ceiling") made.mount = tracker::Mount::kCeiling;
+  made.mount = ParseMount(options.mount);
   if (options.mode == "seated") made.mode = tracker::TrackingMode::kSeated;
   made.trace = !options.trace.empty();
   made.keep_parts = !options.picture.empty() || !options.pictures.empty();

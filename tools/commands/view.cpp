@@ -20,6 +20,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
+#include "tools/commands/model_options.h"
 #include "tools/commands/process.h"
 #include "tools/commands/reading_bar.h"
 #include "tools/commands/source_options.h"
@@ -44,7 +45,7 @@ struct ViewOptions {
   MechanicsOptions mechanics;
   viewer::Settings settings;
   std::vector<std::string> over;
-  std::string mesh;
+  std::string mesh, mount = "auto";
   std::string record_to;
   bool once = false;
 };
@@ -244,11 +245,9 @@ class PageTracker {
 };
 
 void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
-  app.add_option("--model", options.files.forest, "forest model, .ossa (default: the shipped one)");
-  app.add_option("--database", options.files.database, "posture database, .ossadb");
+  AddModelOptions(app, options.files);
   app.add_option("--method", options.settings.method, "method of reconstruction (default best)")
       ->check(CLI::IsMember(recon::ReconstructionMethods()));
-  app.add_option("--learned", options.files.learned, ".ossagp, for the methods that learn");
   app.add_option("--smoothing", options.settings.smoothing,
                  "preset of the joint filter (default: depends on the method)")
       ->check(CLI::IsMember(tracker::SmoothingPresets()));
@@ -259,6 +258,7 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
                  ".ossamesh of 'ossa surface', the skin of that body, on the page and in a .glb "
                  "that it exports, or none (default: the shipped one)");
   AddMechanicsOptions(app, options.mechanics);
+  AddMountOption(app, options.mount);
   app.add_flag("--seated", options.settings.seated, "look for the ten upper joints only");
   app.add_flag("--near", options.settings.near_range,
                "near range: people within 3 m of a level camera only");
@@ -268,8 +268,9 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
 
 // Skeletons of a file are shown as they are.
 void SayWhatIsNotTracked(const CLI::App& app, const std::string& file) {
-  for (const char* option : {"--model", "--database", "--method", "--learned", "--smoothing",
-                             "--physics", "--scene", "--seated", "--near", "--users"}) {
+  for (const char* option : {"--model", "--database", "--prior", "--learned", "--refinement",
+                             "--pose-network", "--method", "--smoothing", "--physics", "--scene",
+                             "--mount", "--seated", "--near", "--users"}) {
     if (app.count(option) == 0) continue;
     Say(fmt::format("ossa view: {}: {} is for a source that is tracked: these are skeletons\n",
                     file, option));
@@ -302,6 +303,7 @@ int View(int argc, char** argv) {
     AtomicFile::CheckWritable(std::filesystem::path(options.record_to) / "recording");
   }
   options.tracker.turn = ChooseTurn(options.source);
+  options.tracker.mount = ParseMount(options.mount);
   if (IsSource(options.source.name)) {
     FindCamera(
         options.source, [&] { return MakeOptions(options, options.settings); }, false);

@@ -127,6 +127,20 @@ TEST(ViewCommand, AMethodThatLearnsNeedsWhatWasLearned) {
   EXPECT_NE(result.err.find("--learned"), std::string::npos) << result.err;
 }
 
+TEST(ViewCommand, TakesTheModelsAndTheMountThatTrackTakes) {
+  const TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 1);
+  const std::string images = folder.path().string();
+  for (const char* option : {"--refinement", "--prior", "--pose-network"}) {
+    const CommandResult result =
+        RunOssa({"view", images, "--port", "0", "--once", option, folder / "none.bin"});
+    EXPECT_NE(result.exit_status, 0) << option;
+    EXPECT_NE(result.err.find("none.bin"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(RunOssa({"view", images, "--mount", "wall"}).exit_status, 2);
+  EXPECT_EQ(RunOssa({"view", images, "--port", "0", "--once", "--mount", "level"}).exit_status, 0);
+}
+
 /// Bytes of what the page of this port answers to /mesh, the triangles of a skin.
 int MeshBytes(const std::string& port) {
   const char* get =
