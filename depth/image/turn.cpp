@@ -32,6 +32,12 @@ DepthFrame Turned(const DepthFrame& frame, int quarters) {
       Turned(image, quarters).data, Turned(frame.camera, quarters), frame.time_s, frame.index, {}};
 }
 
+Camera Unmirrored(const Camera& camera) {
+  Camera unmirrored = camera;
+  unmirrored.cx = camera.width - 1 - camera.cx;
+  return unmirrored;
+}
+
 DepthFrame Unmirrored(const DepthFrame& frame) {
   const DepthView view = frame.view();
   DepthFrame made;
@@ -41,8 +47,7 @@ DepthFrame Unmirrored(const DepthFrame& frame) {
     std::reverse_copy(row, row + view.width,
                       made.depth_mm.begin() + static_cast<ptrdiff_t>(v) * view.width);
   }
-  made.camera = frame.camera;
-  made.camera.cx = frame.camera.width - 1 - frame.camera.cx;
+  made.camera = Unmirrored(frame.camera);
   made.time_s = frame.time_s;
   made.index = frame.index;
   return made;

@@ -31,6 +31,9 @@ Camera Turned(const Camera& camera, int quarters);
 
 DepthFrame Turned(const DepthFrame& frame, int quarters);
 
+/// The camera of the image whose rows are reversed. The same the other way round.
+Camera Unmirrored(const Camera& camera);
+
 /// As the sensor looks, of an image as a mirror shows it (u = cx + fx x/z, which Kinect SDKs,
 /// OpenNI2 and libfreenect2 deliver by default) with the camera of that image. The same the other
 /// way round.

@@ -213,7 +213,7 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   options.Check();
   auto opened = OpenByName(source, options);
   TellOfCamera(source, opened->camera(), options);
-  return opened;
+  return options.mirrored ? UnmirroredSource(std::move(opened)) : std::move(opened);
 }
 
 }  // namespace ossa::depth

@@ -54,6 +54,10 @@ enum class UnitStated { kNo, kYes };
 std::unique_ptr<FrameSource> Prepared(const std::string& name, std::unique_ptr<FrameSource> source,
                                       UnitStated unit, const SourceOptions& options);
 
+/// The source's images and cameras with left and right exchanged (SourceOptions::mirrored). Last of
+/// all: lenses and windows of its images are stated of them as they lie in it.
+std::unique_ptr<FrameSource> UnmirroredSource(std::unique_ptr<FrameSource> source);
+
 /// One of ours without an end (OniFile::unfinished), of which the options' note is told: its whole
 /// frames. A frame whose bytes are damaged throws InputError; reading again goes on with the next.
 std::unique_ptr<FrameSource> OpenUnfinishedOni(const std::filesystem::path& path, OniFile recording,

@@ -130,7 +130,7 @@ def test_settings_that_cannot_be_are_refused(tracker):
         {"source": "nowhere\n\x1b[31m.oni"}, {"source": "openni:nowhere"},
         {"camera": "no such camera"}, {"camera": 5}, {"camera": "1,2,3"}, {"camera": "0,0,0,0"},
         {"depth_scale": 0}, {"depth_scale": "1000"}, {"fps": np.nan}, {"rotate": 30},
-        {"depth_format": "odd"}, {"wait_s": -1}, {"patience_s": 0},
+        {"depth_format": "odd"}, {"mirrored": 1}, {"wait_s": -1}, {"patience_s": 0},
     ],  # fmt: skip
     ids=str,
 )

@@ -61,6 +61,15 @@ def test_depth_scale_and_fps_are_those_asked_for(clip):
     assert images[1].time_s - images[0].time_s == pytest.approx(0.1)
 
 
+def test_mirrored_images_come_as_the_sensor_looks(clip):
+    told = {"camera": "300,300,150,120"}
+    mirrored = next(ossa.open(clip / "depth", **told))
+    seen = next(ossa.open(clip / "depth", **told, mirrored=True))
+    assert (seen.depth_mm == mirrored.depth_mm[:, ::-1]).all()
+    assert seen.depth_mm.flags.c_contiguous
+    assert seen.camera.cx == 320 - 1 - 150
+
+
 def test_a_missing_source_is_named_in_one_line():
     with pytest.raises(ossa.InputError, match="nowhere.oni") as caught:
         ossa.open("nowhere.oni")

@@ -49,6 +49,7 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
   }
   if (arguments.depth_scale > 0) options.depth_scale = arguments.depth_scale;
   if (arguments.fps > 0) options.fps = arguments.fps;
+  options.mirrored = arguments.mirrored;
   options.guessed = [guessed = arguments.guessed](const depth::CameraGuess& guess) {
     *guessed = guess.preset;
   };
@@ -84,6 +85,9 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
   app.add_option("--fps", arguments.fps,
                  "frame rate of a recording, Hz (default: its own times, else 30)")
       ->check(CLI::Range(1e-3, 1e4));
+  app.add_flag("--mirrored", arguments.mirrored,
+               "the images are as a mirror shows them, as Kinect SDKs and libfreenect2 deliver "
+               "them: left and right are exchanged before anything else");
   app.add_option("--rotate", arguments.rotate,
                  "degrees by which the images must be turned clockwise for people to stand "
                  "upright, or auto (default); results stay in the camera's own space")

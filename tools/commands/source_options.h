@@ -20,6 +20,7 @@ struct SourceArguments {
   std::string name, camera, depth_format = "plain";
   double depth_scale = 0.0;  // units to the metre; 0: not said
   double fps = 0.0;          // 0: not said
+  bool mirrored = false;     // images as a mirror shows them
   std::string rotate = "auto";
   std::shared_ptr<std::set<std::string>> said = std::make_shared<std::set<std::string>>();
   // Whose camera it was taken for by its images' size alone: a preset's name; "": it is stated.
@@ -31,7 +32,7 @@ struct SourceArguments {
 /// Whether a SOURCE of that name is a device, or plays as one, and no recording.
 bool IsDevice(std::string_view source);
 
-/// SOURCE, --camera, --depth-scale, --depth-format, --fps and --rotate.
+/// SOURCE, --camera, --depth-scale, --depth-format, --fps, --mirrored and --rotate.
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);
 tracker::Turn ChooseTurn(const SourceArguments& arguments);
 /// Before a folder of images is tracked that does not say its camera: takes one of a narrower view

@@ -57,10 +57,7 @@ ossa::depth::SourceOptions OptionsFrom(const ossa_source_options* given) {
   const auto coding = ossa::depth::ParseDepthFormat(TextOr(c.depth_format, "plain"));
   options.depth_format = coding.format;
   options.inverted_from = coding.inverted_from;
-  if (c.reserved != 0) {
-    throw std::invalid_argument("ossa_source_options.reserved: expected 0, found " +
-                                std::to_string(c.reserved));
-  }
+  options.mirrored = c.mirrored != 0;
   return options;
 }
 

@@ -23,7 +23,7 @@ template <>
 struct StructFacts<ossa_source_options> {
   static constexpr const char* kName = "ossa_source_options";
   static constexpr std::array<size_t, 1> kEarlier = {offsetof(ossa_source_options, depth_format)};
-  static constexpr size_t kEnd = offsetof(ossa_source_options, reserved) + sizeof(int32_t);
+  static constexpr size_t kEnd = offsetof(ossa_source_options, mirrored) + sizeof(int32_t);
 };
 
 template <>

@@ -14,6 +14,7 @@
 
 #include "depth/base/error.h"
 #include "depth/image/camera_io.h"
+#include "depth/image/turn.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_recorder.h"
 #include "depth/sensor/openni2/lasting_thread.h"
@@ -120,6 +121,18 @@ TEST(Device, TellsItsExactCamera) {
   EXPECT_EQ(OpenSource(Uri(folder))->camera(), camera);
   const SourceOptions options{.camera = ParseCamera("1,2,3,4"), .device_wait = {}};
   EXPECT_EQ(OpenSource(Uri(folder), options)->camera(), (Camera{32, 24, 1, 2, 3, 4}));
+}
+
+// What plays as a device may be a recording of mirrored images.
+TEST(Device, WhoseImagesAreMirroredShowsThemAsTheSensorLooks) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 10);
+  WriteCameraJson(folder / "camera.json", {32, 24, 30, 30, 14, 11.5});
+  const auto source = OpenSource(Uri(folder, "?loop=1"), {.mirrored = true});
+  EXPECT_EQ(source->camera().cx, 17.0);
+  const DepthFrame frame = NextFrame(*source).frame;
+  EXPECT_GE(NumberOf(Unmirrored(frame), 10), 0);
+  EXPECT_EQ(NumberOf(frame, 10), -1);
 }
 
 TEST(Device, ThatMirrorsByDefaultIsToldNotTo) {

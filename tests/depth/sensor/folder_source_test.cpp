@@ -278,6 +278,25 @@ TEST(FolderSource, CameraIsTheOptionElseCameraJsonElseBySize) {
   EXPECT_THROW(OpenSource(folder.path().string()), InputError);
 }
 
+TEST(FolderSource, MirroredImagesComeAsTheSensorLooksWithTheCameraOfTheseImages) {
+  const TemporaryFolder folder;
+  Image<uint16_t> image(8, 6, 1000);
+  image.at(1, 2) = 2000;
+  WriteDepthPng(folder / "0.png", {image.data.data(), 8, 6, 8});
+  WriteCameraJson(folder / "camera.json", {8, 6, 7, 7, 2.5, 3});
+  const Camera unmirrored{8, 6, 7, 7, 4.5, 3}, chosen{8, 6, 5, 6, 3, 3};
+  const auto source = OpenSource(folder.path().string(), {.mirrored = true});
+  EXPECT_EQ(source->camera(), unmirrored);
+  const DepthFrame frame = Next(*source).frame;
+  EXPECT_EQ(frame.camera, unmirrored);
+  EXPECT_EQ(frame.view().at(6, 2), 2000);
+  EXPECT_EQ(frame.view().at(1, 2), 1000);
+  EXPECT_EQ(source->frame_count(), 1);
+  EXPECT_EQ(Next(*source).status, ReadStatus::kEnd);
+  const SourceOptions options{.camera = ParseCamera("5,6,4,3"), .mirrored = true};
+  EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), chosen);
+}
+
 TEST(FolderSource, ACameraTakenByTheImageSizeIsToldOf) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1, 512, 424);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "depth/image/depth_png.h"
+#include "depth/image/turn.h"
 #include "depth/sensor/frame_source.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/run_command.h"
@@ -44,6 +45,19 @@ TEST(RecordCommand, RecordsAFolderAndARecordingOfItIsTheSame) {
   EXPECT_EQ(Bytes(first), Bytes(second));
   const auto source = depth::OpenSource(second);
   EXPECT_EQ(source->Read(test::kCommandTimeout).frame.depth_mm, ExampleFrame(0).depth_mm);
+}
+
+TEST(RecordCommand, MirroredImagesAreRecordedAsTheSensorLooks) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 1);
+  const std::string out = (folder / "x.oni").string();
+  const std::vector<std::string> command = {"record",   folder.path().string(), "--out",     out,
+                                            "--camera", "30,30,14,11.5",        "--mirrored"};
+  EXPECT_EQ(RunOssa(command).exit_status, 0);
+  const auto source = depth::OpenSource(out);
+  EXPECT_NEAR(source->camera().cx, 17.0, 1e-3);
+  const depth::DepthFrame frame = source->Read(test::kCommandTimeout).frame;
+  EXPECT_EQ(depth::Unmirrored(frame).depth_mm, ExampleFrame(0).depth_mm);
 }
 
 TEST(RecordCommand, StopsAfterSoManySeconds) {

@@ -8,8 +8,10 @@
 #include <optional>
 #include <thread>
 
+#include "depth/image/camera_io.h"
 #include "depth/image/camera_presets.h"
 #include "depth/image/depth_png.h"
+#include "depth/image/turn.h"
 #include "depth/sensor/oni_recorder.h"
 #include "recon/files/skeleton_io.h"
 #include "tests/support/depth_examples.h"
@@ -68,6 +70,36 @@ TEST(TrackCommand, DepthAlignedToColourIsToldByThePeopleInIt) {
   const CommandResult said =
       TrackTo(folder / "still.png", folder / "y.jsonl", {"--camera", "d435"});
   EXPECT_EQ(said.err.find("d435-color"), std::string::npos) << said.err;
+}
+
+// A walk off the middle, by a camera on its side.
+void WriteTurnedWalk(const std::filesystem::path& folder, bool mirrored) {
+  std::filesystem::create_directories(folder);
+  for (int i = 0; i < 3; ++i) {
+    depth::DepthFrame frame = depth::Turned(Rendered({PersonAt(0.4, 2.6)}, i).frame, 1);
+    frame.camera.cx += 3.0;
+    if (mirrored) frame = depth::Unmirrored(frame);
+    depth::WriteDepthPng(folder / (std::to_string(i) + ".png"), frame.view());
+    depth::WriteCameraJson(folder / "camera.json", frame.camera);
+  }
+}
+
+TEST(TrackCommand, MirroredImagesGiveTheSkeletonsOfThoseThatAreNot) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteTurnedWalk(folder / "plain", false);
+  WriteTurnedWalk(folder / "mirrored", true);
+  const auto track = [&](const char* images, std::vector<std::string> options) {
+    options.insert(options.end(), {"--rotate", "270"});
+    const CommandResult result = TrackTo(folder / images, folder / "x.jsonl", options);
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    std::ifstream file(folder / "x.jsonl");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string plain = track("plain", {});
+  EXPECT_NE(plain.find("HandLeft"), std::string::npos);
+  EXPECT_EQ(track("mirrored", {"--mirrored"}), plain);
+  EXPECT_NE(track("mirrored", {}), plain);
 }
 
 TEST(TrackCommand, AllFormatsSayTheSameToAReaderThatIsNotOurs) {

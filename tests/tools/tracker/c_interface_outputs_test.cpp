@@ -409,10 +409,23 @@ TEST(CInterface, WhatASourceIsWronglyAskedForIsSaidInWords) {
   options.depth_format = "sideways";
   EXPECT_EQ(ossa_source_open(folder.path().c_str(), &options), nullptr);
   EXPECT_TRUE(Says("sideways")) << ossa_last_error();
-  options.depth_format = nullptr;
-  options.reserved = 1;
-  EXPECT_EQ(ossa_source_open(folder.path().c_str(), &options), nullptr);
-  EXPECT_TRUE(Says("reserved")) << ossa_last_error();
+}
+
+TEST(CInterface, MirroredImagesOfASourceComeAsTheSensorLooks) {
+  const test::TemporaryFolder folder;
+  const std::vector<uint16_t> row = {1000, 1001, 1002, 1003};
+  depth::WriteDepthPng(folder / "0.png", {row.data(), 4, 1, 4});
+  auto options = Sized<ossa_source_options>();
+  options.camera = "5,6,1,0";
+  options.mirrored = 1;
+  ossa_source* source = ossa_source_open(folder.path().c_str(), &options);
+  ASSERT_NE(source, nullptr) << ossa_last_error();
+  auto image = Sized<ossa_depth_image>();
+  ASSERT_EQ(ossa_source_read(source, 1000, &image), OSSA_OK) << ossa_last_error();
+  EXPECT_EQ(std::vector<uint16_t>(image.depth_mm, image.depth_mm + 4),
+            std::vector<uint16_t>(row.rbegin(), row.rend()));
+  EXPECT_EQ(image.cx, 2.0);
+  ossa_source_close(source);
 }
 
 // Each made here, used in a thread of its own and destroyed in another; all see the same.

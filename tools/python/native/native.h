@@ -68,7 +68,7 @@ struct MethodOptions {
 MethodOptions ReadMethodOptions(const py::dict& given);
 /// forest, refinement, learned, prior, database.
 tracker::ModelFiles ReadModelFiles(const py::dict& given);
-/// camera, depth_scale, depth_format, fps, wait_s.
+/// camera, depth_scale, depth_format, fps, mirrored, wait_s.
 depth::SourceOptions ReadSourceOptions(const py::dict& given);
 /// motors, hinges, joint_limits.
 tracker::MechanicsBuild ReadMechanics(const py::dict& given);

@@ -59,6 +59,7 @@ depth::SourceOptions ReadSourceOptions(const py::dict& given) {
   const auto coding = depth::ParseDepthFormat(given["depth_format"].cast<std::string>());
   options.depth_format = coding.format;
   options.inverted_from = coding.inverted_from;
+  options.mirrored = given["mirrored"].cast<bool>();
   options.device_wait = milliseconds(static_cast<int64_t>(1000.0 * given["wait_s"].cast<double>()));
   options.keep_waiting = GoesOn;
   return options;

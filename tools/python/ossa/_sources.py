@@ -162,6 +162,7 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     rotate: Union[int, str] = "auto",
     *,
     depth_format: str = "plain",
+    mirrored: bool = False,
     wait_s: float = 0.0,
     patience_s: float = 5.0,
 ) -> Source:
@@ -190,6 +191,10 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     depth_format : "plain", "swapped", "inverted", "inverted:FROM" or "disparity"
         What the 16-bit numbers of a recording are: lengths; with their bytes exchanged; subtracted
         from 65535 or from FROM; raw shifts of a Kinect v1.
+    mirrored : bool
+        The images are as a mirror shows them, as Kinect SDKs and libfreenect2 deliver them, and so
+        is their camera, `camera` or the source's own: both come as the sensor looks. `rotate` is of
+        the images that come.
     wait_s : float
         Seconds to wait for a device to be plugged in.
     patience_s : float
@@ -213,6 +218,7 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     """
     options: dict[str, Any] = {
         "depth_format": _check.text("depth_format", depth_format),
+        "mirrored": _check.flag("mirrored", mirrored),
         "wait_s": _check.number("wait_s", wait_s, 0.0, _LONGEST_S),
     }
     if camera is not None:

@@ -99,7 +99,8 @@ typedef struct {
   int32_t find_camera;      /* not 0: of images that state no camera, nor `camera` does, looks at
                                some for whether one of a narrower view took them, as `ossa track`
                                does: takes seconds; a note says what was found */
-  int32_t reserved;         /* 0 */
+  int32_t mirrored;         /* not 0: its images are as a mirror shows them, and its own camera, or
+                               `camera`, is of these; both come as the sensor looks */
 } ossa_source_options;
 
 typedef struct ossa_source ossa_source;
@@ -129,7 +130,8 @@ int64_t ossa_source_dropped(const ossa_source* source);
 
 /* Turns back an image that is mirrored, with fx, fy, cx, cy as of that image: u = cx + fx x/z. Its
    rows reversed go to depth_mm, width x height, which may be where they are; *image is then of
-   those, its cx with them. What ossa_source_read delivers is as the sensor looks already. */
+   those, its cx with them. What ossa_source_read delivers is as the sensor looks already, unless
+   the source's images are mirrored and ossa_source_options.mirrored does not say so. */
 ossa_status ossa_unmirror(ossa_depth_image* image, uint16_t* depth_mm);
 
 /* ---- between pixels and camera space, the Kinect SDK's CoordinateMapper ---- */
