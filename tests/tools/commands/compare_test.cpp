@@ -87,6 +87,32 @@ TEST_F(CompareCommand, SaysWhereTheReportIsAndWhatToTryWhenOriginsDiffer) {
   EXPECT_EQ(run.out.find("--align rigid"), std::string::npos) << run.out;
 }
 
+// As it comes out of depth images that are mirrored.
+recon::SkeletonSequence Mirrored(recon::SkeletonSequence sequence) {
+  for (auto& frame : sequence.frames) {
+    for (auto& body : frame.bodies) {
+      const auto joints = body.joints;
+      for (size_t j = 0; j < recon::kJointCount; ++j) {
+        body.joints[j] = joints[recon::kMirroredJoint[j]];
+        if (body.joints[j]) body.joints[j]->position_m.x() *= -1;
+      }
+    }
+  }
+  return sequence;
+}
+
+TEST_F(CompareCommand, SaysThatAResultIsOfMirroredImages) {
+  const std::string mirrored = folder_ / "mirrored.jsonl";
+  recon::WriteSkeletons(mirrored, Mirrored(ExampleSequence(20)));
+  auto run = RunOssa({"compare", truth_, mirrored});
+  EXPECT_NE(run.out.find("mirrored.jsonl is far nearer to the truth as a mirror shows it"),
+            std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("--mirrored"), std::string::npos) << run.out;
+  run = RunOssa({"compare", truth_, near_, far_});
+  EXPECT_EQ(run.out.find("--mirrored"), std::string::npos) << run.out;
+}
+
 TEST_F(CompareCommand, TakesTruthAndEstimateOfOneFileThatHoldsBoth) {
   const std::string both = folder_ / "both.csv";
   // UI-PRMD's columns: Kinect and Vicon, centimetres; the wrists are 5 cm apart.

@@ -61,7 +61,8 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
 /// The object of `ossa compare --json` (docs/architecture.md), with confidence intervals, clips and
 /// tests beside the measures.
 std::string ToJson(const Comparison& comparison);
-/// What to try where the numbers say that the skeletons do not share a space; "" where they do.
+/// What to try where the numbers say that the skeletons do not share a space, or that a mirror lies
+/// between them; "" where they do.
 std::string Advice(const Comparison& comparison);
 /// Tables for a terminal.
 std::string ToText(const Comparison& comparison);

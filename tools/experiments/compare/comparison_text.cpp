@@ -147,6 +147,25 @@ Table TestTable(const Comparison& comparison) {
   return table;
 }
 
+// Of one clip after the other: a folder may hold mirrored ones beside others.
+std::string AdviceOnMirrored(const ComparedResult& result) {
+  // Errors of ordinary tracking are about as large in a mirror, or larger; where a person stands as
+  // a mirror would show them, they are alike.
+  constexpr double kFarNearer = 0.5;  // ratio, no unit; by hand
+  constexpr double kLeast_cm = 4.0;   // by hand
+  for (const PairedTracks& pair : result.pairs) {
+    const auto error_cm = Measure(pair).parent_relative_error_cm;
+    const auto mirrored_cm = MirroredRelativeError_cm(pair);
+    if (!error_cm || !mirrored_cm) continue;
+    if (*error_cm < kLeast_cm || *mirrored_cm > kFarNearer * *error_cm) continue;
+    return fmt::format(
+        "{} is far nearer to the truth as a mirror shows it (parent-relative error {:.1f} instead "
+        "of {:.1f} cm): if its depth images were mirrored, track them with --mirrored.",
+        result.label, *mirrored_cm, *error_cm);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string ToJson(const Comparison& comparison) {
@@ -174,6 +193,7 @@ std::string Advice(const Comparison& comparison) {
   constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole; by hand
   if (comparison.rigid) return "";
   for (const ComparedResult& result : comparison.results) {
+    if (std::string advice = AdviceOnMirrored(result); !advice.empty()) return advice;
     const auto error_cm = result.mean.mean_joint_error_cm;
     if (!error_cm || *error_cm < kApart_cm) continue;
     return fmt::format(

@@ -178,7 +178,30 @@ std::optional<double> AveragePrecision(const PairedTracks& pair, size_t joint) {
   return area;
 }
 
+// Across x = 0: where the mirror stands does not matter to errors that are relative to a parent.
+SparsePosture Mirrored(const SparsePosture& posture) {
+  SparsePosture mirrored;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const size_t other = recon::kMirroredJoint[j];
+    mirrored.position_m[j] = posture.position_m[other].cwiseProduct(Eigen::Vector3d(-1, 1, 1));
+    mirrored.present[j] = posture.present[other];
+    mirrored.confidence[j] = posture.confidence[other];
+  }
+  return mirrored;
+}
+
 }  // namespace
+
+std::optional<double> MirroredRelativeError_cm(PairedTracks pair) {
+  for (SparsePosture& posture : pair.result) posture = Mirrored(posture);
+  Mean relative;
+  for (size_t f = 0; f < pair.truth.size(); ++f) {
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      if (const auto error = RelativeError_cm(pair, f, j)) relative.Add(*error);
+    }
+  }
+  return relative.Value();
+}
 
 FrameErrors ErrorsByFrame(const PairedTracks& pair) {
   FrameErrors errors;

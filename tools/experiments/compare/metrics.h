@@ -45,6 +45,10 @@ struct ClipMetrics {
 
 ClipMetrics Measure(const PairedTracks& pair);
 
+/// ClipMetrics::parent_relative_error_cm of the result as a mirror shows it, left and right
+/// exchanged: small where its depth images were mirrored and nobody said so.
+std::optional<double> MirroredRelativeError_cm(PairedTracks pair);
+
 /// Error of one frame, centimetres, for plots and counts; empty where nothing can be compared.
 struct FrameErrors {
   std::vector<std::optional<double>> mean_joint_cm;
