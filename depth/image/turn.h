@@ -31,7 +31,7 @@ Camera Turned(const Camera& camera, int quarters);
 
 DepthFrame Turned(const DepthFrame& frame, int quarters);
 
-/// The camera of the image whose rows are reversed. The same the other way round.
+/// The camera of the image whose rows are reversed.
 Camera Unmirrored(const Camera& camera);
 
 /// As the sensor looks, of an image as a mirror shows it (u = cx + fx x/z, which Kinect SDKs,

@@ -2,9 +2,16 @@
 #include <sstream>
 #include <string>
 
+#include "depth/image/turn.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
+
+Camera ChosenCamera(const SourceOptions& options, int width, int height) {
+  const Camera camera = CameraForSize(*options.camera, width, height);
+  const bool is_preset = !options.camera->preset.empty();
+  return is_preset && options.mirrored ? Unmirrored(camera) : camera;
+}
 
 Camera CameraByImageSize(const std::string& name, int width, int height,
                          const SourceOptions& options) {
@@ -18,7 +25,7 @@ Camera CameraByImageSize(const std::string& name, int width, int height,
     options.note(NoteKind::kInfo, text.str());
   }
   if (options.guessed) options.guessed(guess);
-  return guess.camera;
+  return options.mirrored ? Unmirrored(guess.camera) : guess.camera;
 }
 
 }  // namespace ossa::depth

@@ -182,7 +182,7 @@ std::optional<Camera> CameraFileIn(const fs::path& folder, ImageSize size,
 // As the option says, else the folder's camera.json or whatever states it; else by the image size.
 Camera ChooseCamera(const fs::path& folder, const std::optional<Camera>& stated, ImageSize size,
                     const SourceOptions& options) {
-  if (options.camera) return CameraForSize(*options.camera, size.width, size.height);
+  if (options.camera) return ChosenCamera(options, size.width, size.height);
   return stated ? *stated : CameraByImageSize(folder.string(), size.width, size.height, options);
 }
 

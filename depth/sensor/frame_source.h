@@ -75,7 +75,7 @@ struct SourceOptions {
   int inverted_from = 65535;       // value of 0 mm, 1 to 65535; by definition the largest
   std::optional<double> fps = {};  // frame rate, Hz; replaces the recording's own times
   // The source's images are as a mirror shows them, u = cx + fx x/z, and so is its camera, stated
-  // or chosen: both are delivered as the sensor looks.
+  // or chosen by numbers: both are delivered as the sensor looks.
   bool mirrored = false;
   // Called with the camera if it was guessed from the image size; may be empty.
   std::function<void(const CameraGuess&)> guessed = {};

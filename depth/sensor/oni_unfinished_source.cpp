@@ -16,7 +16,7 @@ class OniUnfinishedSource final : public FrameSource {
                       const SourceOptions& options)
       : name_(path.string()), file_(OpenFile(path)), frames_(std::move(*recording.unfinished)) {
     const Camera& own = *recording.camera;
-    camera_ = options.camera ? CameraForSize(*options.camera, own.width, own.height) : own;
+    camera_ = options.camera ? ChosenCamera(options, own.width, own.height) : own;
   }
 
   ReadResult Read(std::chrono::milliseconds) override {

@@ -38,7 +38,12 @@ std::unique_ptr<FrameSource> OpenMkvFile(const std::filesystem::path& path,
 std::unique_ptr<FrameSource> OpenBagFile(const std::filesystem::path& path,
                                          const std::string& topic, const SourceOptions& options);
 
-/// The camera whose images have this size; says in a note which was taken for whose.
+/// `options.camera` for images of this size. Presets are of the sensor as it looks: where images
+/// are mirrored, of these, as any other camera of them is.
+Camera ChosenCamera(const SourceOptions& options, int width, int height);
+
+/// The camera whose images have this size, of mirrored ones likewise; says in a note which was
+/// taken for whose.
 Camera CameraByImageSize(const std::string& name, int width, int height,
                          const SourceOptions& options);
 

@@ -162,7 +162,7 @@ class Device {
     const int width = mode.getResolutionX();
     const int height = mode.getResolutionY();
     period_s_ = 1.0 / std::max(mode.getFps(), 1);
-    whole_ = options_.camera ? CameraForSize(*options_.camera, width, height)
+    whole_ = options_.camera ? ChosenCamera(options_, width, height)
                              : ReadCamera(stream_, width, height);
     camera_ = CropToWindow(whole_, ReadWindow(stream_, mirrored_));
     return stream_.start() == openni::STATUS_OK;

@@ -70,7 +70,7 @@ class OniFileSource final : public FrameSource {
       throw InputError(name_ + ": video mode: expected a size, found " + std::to_string(width) +
                        "x" + std::to_string(height));
     }
-    if (options.camera) return CameraForSize(*options.camera, width, height);
+    if (options.camera) return ChosenCamera(options, width, height);
     if (own_camera_) return CameraForSize(*own_camera_, width, height);
     return CameraFromFieldOfView(width, height, hello.horizontal_fov_rad, hello.vertical_fov_rad);
   }

@@ -47,7 +47,7 @@ class ReaderSource final : public FrameSource {
     pipe_.Take(&hello_, sizeof(hello_));
     const int width = hello_.camera.width, height = hello_.camera.height;
     if (options.camera) {
-      hello_.camera = CameraForSize(*options.camera, width, height);
+      hello_.camera = ChosenCamera(options, width, height);
     } else if (!hello_.is_camera_stated) {
       hello_.camera = CameraByImageSize(name_, width, height, options);
     }

@@ -297,6 +297,15 @@ TEST(FolderSource, MirroredImagesComeAsTheSensorLooksWithTheCameraOfTheseImages)
   EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), chosen);
 }
 
+// A preset, given or taken by the size, is of no image: it is the sensor's.
+TEST(FolderSource, PresetsAreTheSameForMirroredImages) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1);
+  EXPECT_EQ(OpenSource(folder.path().string(), {.mirrored = true})->camera(), KinectV1Camera(8, 6));
+  const SourceOptions options{.camera = ParseCamera("kinect-v2"), .mirrored = true};
+  EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), PresetCamera("kinect-v2", 8, 6));
+}
+
 TEST(FolderSource, ACameraTakenByTheImageSizeIsToldOf) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1, 512, 424);

@@ -193,8 +193,8 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
         from 65535 or from FROM; raw shifts of a Kinect v1.
     mirrored : bool
         The images are as a mirror shows them, as Kinect SDKs and libfreenect2 deliver them, and so
-        is their camera, `camera` or the source's own: both come as the sensor looks. `rotate` is of
-        the images that come.
+        is their camera, the source's own or the numbers of `camera`: both come as the sensor looks.
+        `rotate` is of the images that come.
     wait_s : float
         Seconds to wait for a device to be plugged in.
     patience_s : float

@@ -100,7 +100,7 @@ typedef struct {
                                some for whether one of a narrower view took them, as `ossa track`
                                does: takes seconds; a note says what was found */
   int32_t mirrored;         /* not 0: its images are as a mirror shows them, and its own camera, or
-                               `camera`, is of these; both come as the sensor looks */
+                               `camera`'s numbers, is of these; both come as the sensor looks */
 } ossa_source_options;
 
 typedef struct ossa_source ossa_source;
