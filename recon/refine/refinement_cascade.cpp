@@ -156,7 +156,8 @@ Eigen::RowVectorXf ComputeStageFeatures(const SampledPerson& person, Joint joint
   return numbers;
 }
 
-JointRefiner::JointRefiner(const RefinementCascade& cascade) : from_above_(cascade.from_above) {
+JointRefiner::JointRefiner(const RefinementCascade& cascade)
+    : from_above_(cascade.from_above), forest_checksum_(cascade.forest_checksum) {
   PerceptronPacker packer(0);
   const auto add = [&packer](const std::vector<RefinementStage>& stages) {
     for (const RefinementStage& stage : stages) {

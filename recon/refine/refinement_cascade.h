@@ -158,6 +158,8 @@ class JointRefiner {
   std::optional<RefinedPerson> Refine(const RefinementInput& input) const;
   /// As RefinementCascade::from_above.
   bool from_above() const { return from_above_; }
+  /// As RefinementCascade::forest_checksum.
+  uint64_t forest_checksum() const { return forest_checksum_; }
 
  private:
   JointRefiner() = default;
@@ -171,6 +173,7 @@ class JointRefiner {
   std::vector<QuantisedPerceptron> networks_;
   size_t before_bones_ = 0;
   bool from_above_ = false;
+  uint64_t forest_checksum_ = 0;
 };
 
 }  // namespace ossa::recon

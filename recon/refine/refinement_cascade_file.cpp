@@ -171,6 +171,7 @@ JointRefiner JointRefiner::Load(const std::filesystem::path& path) {
         refiner.before_bones_ = counts.stages * kStageJoints.size();
         refiner.networks_ = packer.Take();
         refiner.from_above_ = counts.from_above;
+        refiner.forest_checksum_ = counts.forest_checksum;
         return refiner;
       });
 }

@@ -4,6 +4,7 @@ import copy
 import dataclasses
 import gc
 import os
+import pathlib
 import subprocess
 import sys
 import threading
@@ -37,6 +38,20 @@ def test_gives_the_bytes_of_the_command(method, clip, command, tmp_path):
     tracked = ossa.Tracker(method, lag=2 if method == "best" else 0).run(clip)
     ossa.write_skeletons(ossa.Sequence.from_frames(tracked), tmp_path / "python.jsonl")
     assert (tmp_path / "python.jsonl").read_bytes() == (tmp_path / "command.jsonl").read_bytes()
+
+
+def test_models_warn_of_a_refinement_of_another_forest(command, tmp_path, caplog):
+    # The smallest training there is, at the shipped forest's joints.
+    command("render", "--mocap", "authored", "--out", tmp_path / "people", "--frames", "150",
+            "--size", "160x120", "--view", "front", "--format", "packed", "--quiet")  # fmt: skip
+    command("refine", tmp_path / "people", "--out", tmp_path / "a.ossarefine", "--hidden", "4",
+            "--epochs", "1", "--quiet")  # fmt: skip
+    ossa.Models(refinement=tmp_path / "a.ossarefine")
+    assert not caplog.records
+    other = pathlib.Path(__file__).parents[2] / "tools/tracker/shipped/body_ceiling.ossa"
+    ossa.Models(model=other, refinement=tmp_path / "a.ossarefine")
+    [warning] = caplog.records
+    assert "a.ossarefine: learned at the joints of another forest" in warning.message
 
 
 def test_a_body_has_every_field_in_its_shape_and_type(frames):

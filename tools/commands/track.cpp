@@ -27,6 +27,7 @@
 #include "tools/commands/track_outputs.h"
 #include "tools/commands/track_several.h"
 #include "tools/commands/view_options.h"
+#include "tools/commands/warnings.h"
 #include "tools/stream/sender.h"
 #include "tools/tracker/run_stats.h"
 #include "tools/tracker/shipped.h"
@@ -297,6 +298,7 @@ void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
 int Track(int argc, char** argv) {
   TrackOptions options = ParseTrackOptions(argc, argv);
   options.tracker.models = tracker::ModelSet::Load(options.files, options.tracker.method);
+  SayWarnings("track", options.tracker.models->warnings);
   if (!options.more_sources.empty()) return TrackSeveral(options);
   FindCamera(
       options.source, [&] { return options.tracker; }, options.quiet);

@@ -117,7 +117,9 @@ ossa_tracker::ossa_tracker(const ossa::tracker::TrackerOptions& options, std::st
       is_seated(options.mode == ossa::tracker::TrackingMode::kSeated),
       surface_file(std::move(surface)),
       mesh_file(std::move(mesh)) {
-  if (options.models) this->surface = options.models->surface;
+  if (!options.models) return;
+  this->surface = options.models->surface;
+  warnings.assign(options.models->warnings.begin(), options.models->warnings.end());
 }
 
 const char* ossa_last_error(void) { return ossa::tracker::LastError(); }
@@ -228,6 +230,14 @@ ossa_status ossa_tracker_object(const ossa_tracker* tracker, int32_t place, ossa
                object);
     return OSSA_OK;
   });
+}
+
+const char* ossa_tracker_take_note(ossa_tracker* tracker, int32_t* kind) {
+  if (tracker == nullptr || tracker->warnings.empty()) return nullptr;
+  tracker->taken_note = std::move(tracker->warnings.front());
+  tracker->warnings.pop_front();
+  if (kind != nullptr) *kind = OSSA_NOTE_WARNING;
+  return tracker->taken_note.c_str();
 }
 
 int32_t ossa_tracker_rotation(const ossa_tracker* tracker) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@ struct ossa_tracker {
   std::string surface_file, mesh_file;  // as ossa_options names them, "": the shipped one
   std::shared_ptr<const ossa::recon::BodyMesh> mesh;  // read for who first asks for a skin
   std::vector<float> skin_m;                          // of the last skin that was asked for
+  std::deque<std::string> warnings;                   // of the models, not yet taken
+  std::string taken_note;
 };
 
 struct ossa_source;

@@ -5,7 +5,9 @@
 #include <future>
 #include <utility>
 
+#include "depth/base/checksummed_container.h"
 #include "depth/base/large_pages.h"
+#include "depth/base/one_line.h"
 #include "forest/forest.h"
 #include "forest/kept_tables.h"
 #include "recon/database/posture_database.h"
@@ -64,6 +66,9 @@ struct Refinements {
   std::string now_file;     // of `now`
   bool is_shipped = false;  // `now`
   std::string ceiling_file;
+  // Of the one that was named:
+  uint64_t forest_checksum = 0;  // as RefinementCascade's
+  bool is_for_ceiling = false;   // it is ceiling_file
 };
 
 // A refinement that was named is had with every method: its joints may be what is wanted. Beside
@@ -76,12 +81,14 @@ Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
   if (named) {
     out.now = ReadRefinement(files.refinement);
     out.now_file = files.refinement;
+    out.forest_checksum = out.now->forest_checksum();
     out.is_shipped = IsShippedFile(files.refinement, recon::kShippedRefinement);
   }
   if (IsShippedForest(files)) {
     out.ceiling_file = kCeilingRefinement;
     if (named && out.now->from_above()) {
       out.ceiling_file = files.refinement;
+      out.is_for_ceiling = true;
       out.now = nullptr;
     }
   }
@@ -92,6 +99,17 @@ Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
     out.is_shipped = true;
   }
   return out;
+}
+
+// Joints lie elsewhere where another forest proposes them: refined as if they were those that the
+// cascade was learned at, they are wrong in silence. Files of before version 8 do not say whose.
+std::vector<std::string> WarnOfOtherForest(const ModelFiles& files, const Refinements& read) {
+  if (read.forest_checksum == 0) return {};
+  const auto forest =
+      read.is_for_ceiling ? ShippedFile(kCeilingForest) : NamedOrShipped(files.forest, kForest);
+  if (ReadContainerChecksum(forest) == read.forest_checksum) return {};
+  return {OnOneLine(files.refinement + ": learned at the joints of another forest than " +
+                    forest.string() + ": 'ossa refine' trains one at those")};
 }
 
 // From the tables that an earlier start left; null where there are none.
@@ -193,6 +211,7 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   set.forest = KeptForest(files, forest);
   if (set.forest == nullptr) set.forest = LoadForest(files, forest);
   Refinements read = refinements.get();
+  set.warnings = WarnOfOtherForest(files, read);
   set.refinement = std::move(read.now);
   set.refinement_file = std::move(read.now_file);
   set.ceiling_refinement_file = std::move(read.ceiling_file);

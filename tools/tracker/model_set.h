@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "recon/methods/method_table.h"
 
@@ -55,6 +56,8 @@ struct ModelSet {
   std::string ceiling_file;
   std::string ceiling_refinement_file;  // of its joints, read with it; "": none
   bool from_ceiling = false;            // `forest` is one for such cameras
+  /// Of named files that do not belong together, for people to see, one line each.
+  std::vector<std::string> warnings;
 
   /// What ossa ships for a method of reconstruction (recon::MethodTable). Throws InputError where a
   /// file is missing or damaged, and for a method that does not exist.

@@ -79,6 +79,8 @@ TEST(RefinementCascade, KnowsTheForestWhoseJointsItRefines) {
   cascade.forest_checksum = 0x0123456789abcdef;
   cascade.Save(folder / "a.ossarefine");
   EXPECT_EQ(RefinementCascade::Load(folder / "a.ossarefine").forest_checksum, 0x0123456789abcdef);
+  EXPECT_EQ(JointRefiner::Load(folder / "a.ossarefine").forest_checksum(), 0x0123456789abcdef);
+  EXPECT_EQ(JointRefiner(cascade).forest_checksum(), 0x0123456789abcdef);
 }
 
 TEST(RefinementCascade, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
@@ -103,7 +105,7 @@ TEST(RefinementCascade, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
   WriteContainer(folder / "seven.ossarefine", format, Compress(without_forest(payload), 3));
   EXPECT_EQ(RefinementCascade::Load(folder / "seven.ossarefine").bone_conditioned.size(), 1U);
   EXPECT_EQ(RefinementCascade::Load(folder / "seven.ossarefine").forest_checksum, 0U);
-  EXPECT_NO_THROW(JointRefiner::Load(folder / "seven.ossarefine"));
+  EXPECT_EQ(JointRefiner::Load(folder / "seven.ossarefine").forest_checksum(), 0U);
   payload = without_view(std::move(payload));
   format.version = 6;
   WriteContainer(folder / "six.ossarefine", format, Compress(payload, 3));

@@ -243,6 +243,24 @@ TEST_F(RefineCommand, IsRefusedByTrackInOneLineWhereTheFileIsNone) {
   EXPECT_EQ(test::LineCount(bad.err), 1) << bad.err;
 }
 
+TEST_F(RefineCommand, IsWarnedOfByTrackBesideAnotherForestThanItsOwn) {
+  Cascade cascade = HeadHigher(0.1);
+  const auto said = [&](uint64_t learned_at) {
+    cascade.forest_checksum = learned_at;
+    return RunOssa({"track", "/nonexistent", "--out", folder_ / "x.jsonl", "--refinement",
+                    Saved("my.ossarefine", cascade)})
+        .err;
+  };
+  const uint64_t forest = ReadContainerChecksum(tracker::ShippedFile("body.ossa"));
+  const std::string fits = said(forest), other = said(forest + 1);
+  EXPECT_EQ(fits.find("warning"), std::string::npos) << fits;
+  EXPECT_NE(other.find("track: warning: "), std::string::npos) << other;
+  EXPECT_NE(other.find("my.ossarefine: learned at the joints of another forest than "),
+            std::string::npos)
+      << other;
+  EXPECT_EQ(test::LineCount(other), test::LineCount(fits) + 1) << other;
+}
+
 // Where the joints truly are, in camera space.
 recon::Posture TruthOf(const tools::RefinementExample& example) {
   const recon::ProposedPerson& person = example.person;

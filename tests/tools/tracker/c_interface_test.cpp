@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "depth/image/depth_png.h"
+#include "recon/refine/refinement_cascade.h"
 #include "tests/support/depth_examples.h"
+#include "tests/support/perceptrons.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/walk_in_c.h"
@@ -300,6 +302,28 @@ TEST(CInterface, ASourceHasItsNotes) {
   EXPECT_EQ(kind, OSSA_NOTE_WARNING);
   EXPECT_EQ(ossa_source_dropped(source), 1);
   ossa_source_close(source);
+}
+
+TEST(CInterface, ATrackerHasTheWarningsOfItsModels) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  const std::string file = folder / "other.ossarefine";
+  recon::RefinementCascade other;
+  other.stages.emplace_back().fill(test::SilentPerceptron({recon::kStageFeatures, 3}));
+  other.forest_checksum = 1;
+  other.Save(file);
+  ossa_options options = PlainOptionsInC();
+  options.refinement = file.c_str();
+  ossa_tracker* tracker = ossa_tracker_create(&options);
+  ASSERT_NE(tracker, nullptr) << ossa_last_error();
+  int32_t kind = -1;
+  const char* note = ossa_tracker_take_note(tracker, &kind);
+  ASSERT_NE(note, nullptr);
+  EXPECT_NE(std::string(note).find("other.ossarefine: learned at"), std::string::npos) << note;
+  EXPECT_EQ(kind, OSSA_NOTE_WARNING);
+  EXPECT_EQ(ossa_tracker_take_note(tracker, nullptr), nullptr);
+  EXPECT_EQ(ossa_tracker_take_note(nullptr, nullptr), nullptr);
+  ossa_tracker_destroy(tracker);
 }
 
 TEST(CInterface, ACameraOfASourceMayBeNamed) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "depth/base/checksummed_container.h"
 #include "recon/bone_lengths.h"
 #include "recon/refine/bone_estimation.h"
 #include "recon/refine/pose_network.h"
@@ -196,6 +197,54 @@ TEST(RefinedJoints, AForestOfOnesOwnIsNotRefinedUnasked) {
   EXPECT_FALSE(Tracked(OptionsWith(files)).refined);
   files.refinement = folder / "missing.ossarefine";
   EXPECT_THROW(ModelSet::Load(files), InputError);
+}
+
+// A cascade in a file, learned at the joints of the forest of that checksum; 0: not known.
+std::string SaveLearnedAt(const test::TemporaryFolder& folder, uint64_t forest, bool from_above) {
+  recon::RefinementCascade look = HeadHigher(0.0F);
+  look.forest_checksum = forest;
+  look.from_above = from_above;
+  const std::string file = folder / "a.ossarefine";
+  look.Save(file);
+  return file;
+}
+
+// At the level forest's joints, at those of the one for ceilings.
+class RefinementOfAForest : public testing::TestWithParam<bool> {};
+
+TEST_P(RefinementOfAForest, WarnsBesideAnotherOneInALineThatNamesBothAndTheCommand) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  ModelFiles files;
+  const std::string forest = ShippedFile(GetParam() ? "body_ceiling.ossa" : "body.ossa").string();
+  const uint64_t own = ReadContainerChecksum(forest);
+  for (const uint64_t fits : {own, uint64_t{0}}) {
+    files.refinement = SaveLearnedAt(folder, fits, GetParam());
+    EXPECT_TRUE(ModelSet::Load(files).warnings.empty());
+  }
+  files.refinement = SaveLearnedAt(folder, own + 1, GetParam());
+  EXPECT_EQ(ModelSet::Load(files).warnings,
+            std::vector<std::string>{files.refinement +
+                                     ": learned at the joints of another forest than " + forest +
+                                     ": 'ossa refine' trains one at those"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Mounts, RefinementOfAForest, testing::Bool(),
+                         [](const auto& mount) { return mount.param ? "Ceiling" : "Level"; });
+
+TEST(RefinedJoints, AForestIsTheSameWhateverItIsCalledAndShippedModelsWarnOfNothing) {
+  OSSA_NEEDS_MODEL();
+  const test::TemporaryFolder folder;
+  ModelFiles files;
+  files.forest = folder / "own.ossa";
+  std::filesystem::copy_file(ModelOrNothing(), files.forest);
+  files.refinement = SaveLearnedAt(folder, ReadContainerChecksum(ModelOrNothing()), false);
+  EXPECT_TRUE(ModelSet::Load(files).warnings.empty());
+  EXPECT_TRUE(ModelSet::Shipped().warnings.empty());
+  files = {};
+  files.forest = ShippedFile("body_ceiling.ossa");
+  files.refinement = ShippedFile("body_ceiling.ossarefine");
+  EXPECT_TRUE(ModelSet::Load(files).warnings.empty());
 }
 
 }  // namespace

@@ -438,7 +438,8 @@ class Tracker {
 void AddTracker(py::module_& module) {
   py::class_<Models>(module, "Models")
       .def(py::init(&LoadModels), py::arg("files"), py::arg("method"))
-      .def_readonly("method", &Models::method);
+      .def_readonly("method", &Models::method)
+      .def_property_readonly("warnings", [](const Models& models) { return models.set.warnings; });
   py::class_<Skin>(module, "Skin")
       .def("vertices", [](const Skin& skin) { return ComputeVertices(*skin.mesh, skin.pose); })
       // Nothing changes it: dataclasses.asdict and copy.deepcopy may share it.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import logging
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -18,6 +19,7 @@ from ._sources import open as open_source
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+_LOG = logging.getLogger("ossa")
 _STEP_S = 1.0 / 30.0  # between frames that say no time
 
 
@@ -157,6 +159,8 @@ class Models:
             raise _check.InputError(f"surface: expected its skin with it, mesh, found {files['surface']} alone")
         _method_options.check_files(method, files)
         self._native = _native.Models(files, method)
+        for warning in self._native.warnings:
+            _LOG.warning("%s", warning)
 
     @property
     def method(self) -> str:

@@ -115,7 +115,7 @@ ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth
 
 typedef enum {
   OSSA_NOTE_INFO = 0,   /* what was assumed or passed over */
-  OSSA_NOTE_WARNING = 1 /* what was lost */
+  OSSA_NOTE_WARNING = 1 /* what was lost, or does not belong together */
 } ossa_note_kind;
 
 /* What `ossa track` says of a source on its error output: the next line that nobody has taken yet,
@@ -294,6 +294,9 @@ ossa_status ossa_tracker_skin(ossa_tracker* tracker, int32_t place, ossa_skin* s
 ossa_status ossa_tracker_save_person(const ossa_tracker* tracker, int32_t place, const char* path);
 /* A thing of the last frame, by its place from 0 to object_count - 1. */
 ossa_status ossa_tracker_object(const ossa_tracker* tracker, int32_t place, ossa_object* object);
+/* What `ossa track` says of the models' files on its error output, as ossa_source_take_note: so a
+   refinement is told of that was learned at another forest's joints. Valid until the next call. */
+const char* ossa_tracker_take_note(ossa_tracker* tracker, int32_t* kind);
 /* Degrees by which images are turned now, clockwise. */
 int32_t ossa_tracker_rotation(const ossa_tracker* tracker);
 /* Forgets everybody and everything seen: another recording begins. */
