@@ -87,12 +87,22 @@ bool IsSkinMarker(const std::string& label) {
                                label.ends_with("KNE") || label.ends_with("ANK"));
 }
 
+// SDK 2 has Neck above SpineShoulder, and before it: only where no other point is at the neck's
+// base, its own stands for that.
+bool IsNeckAboveItsBase(const Subject& subject, const std::string& label) {
+  if (Lower(label) != "neck") return false;
+  return std::any_of(subject.labels.begin(), subject.labels.end(), [](const std::string& other) {
+    return Lower(other) != "neck" && JointCalled(other) == Joint::kShoulderCenter;
+  });
+}
+
 // Of several points of one joint the first; the labels of others go to `others`.
 PointBody FindJointsByName(const Subject& subject, bool skin, std::vector<std::string>& others) {
   PointBody body;
   for (size_t p = 0; p < subject.points.size(); ++p) {
     const auto joint = JointCalled(subject.labels[p]);
     if (!joint || IsSkinMarker(subject.labels[p]) != skin) continue;
+    if (IsNeckAboveItsBase(subject, subject.labels[p])) continue;
     auto& points = body.points[Index(*joint)];
     if (points.empty()) {
       points.push_back(subject.points[p]);

@@ -57,6 +57,7 @@ std::span<const SkeletonFormat> UiPrmdFormats();       // skeleton_uiprmd.cpp: i
 std::span<const SkeletonFormat> AzureFormats();        // skeleton_azure.cpp
 std::span<const SkeletonFormat> C3dFormats();          // skeleton_c3d.cpp
 std::span<const SkeletonFormat> StreamSaverFormats();  // skeleton_stream_saver.cpp
+std::span<const SkeletonFormat> TableFormats();        // skeleton_tables.cpp
 
 /// The file of times that Kinect Stream Saver writes beside its joints: no recording of its own.
 inline constexpr const char* kSaverTimes = "liTimeStamp.binary";

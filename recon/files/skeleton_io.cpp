@@ -335,10 +335,11 @@ void WarnIfNothingIsChosen(const fs::path& path, const SkeletonPath& parts,
 std::span<const SkeletonFormat> AllSkeletonFormats() {
   static const std::vector<SkeletonFormat> kAll = [] {
     std::vector<SkeletonFormat> all;
-    // Azure before ours: both are JSON with "bodies", and only its marks are unmistakable.
+    // Azure before ours: both are JSON with "bodies", and only its marks are unmistakable. Tables
+    // of any program's last: they have the least of their own.
     for (const auto formats :
          {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(), KinectV2Formats(),
-          KinectV1Formats(), C3dFormats(), StreamSaverFormats()}) {
+          KinectV1Formats(), C3dFormats(), StreamSaverFormats(), TableFormats()}) {
       all.insert(all.end(), formats.begin(), formats.end());
     }
     return all;

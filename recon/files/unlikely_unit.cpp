@@ -20,31 +20,35 @@ std::vector<double> MeasureLimbs(const SkeletonSequence& sequence) {
       {Joint::kShoulderLeft, Joint::kElbowLeft},
       {Joint::kShoulderRight, Joint::kElbowRight},
   }};
-  std::vector<double> lengths_m;
+  std::vector<double> lengths;
   for (const SkeletonFrame& frame : sequence.frames) {
     for (const BodyRecord& body : frame.bodies) {
       for (const auto& [a, b] : kLimbs) {
         if (!body.joints[a] || !body.joints[b]) continue;
-        lengths_m.push_back((body.joints[a]->position_m - body.joints[b]->position_m).norm());
+        lengths.push_back((body.joints[a]->position_m - body.joints[b]->position_m).norm());
       }
     }
   }
-  return lengths_m;
+  return lengths;
 }
 
 }  // namespace
 
+std::optional<double> MedianLimb(const SkeletonSequence& sequence) {
+  std::vector<double> lengths = MeasureLimbs(sequence);
+  if (lengths.empty()) return std::nullopt;
+  return Median(std::move(lengths));
+}
+
 std::string DescribeUnlikelyUnit(const SkeletonSequence& sequence) {
   // Metres, by hand: a newborn's are longer, no giant's as long.
   constexpr double kShortest_m = 0.05, kLongest_m = 2.0;
-  std::vector<double> lengths_m = MeasureLimbs(sequence);
-  if (lengths_m.empty()) return {};
-  const double limb_m = Median(std::move(lengths_m));
-  if (limb_m >= kShortest_m && limb_m <= kLongest_m) return {};
+  const auto limb_m = MedianLimb(sequence);
+  if (!limb_m || (*limb_m >= kShortest_m && *limb_m <= kLongest_m)) return {};
   return fmt::format(
       "thighs, shins and upper arms are {:.3g} m long, which are no person's: is it in another "
       "unit than it says?",
-      limb_m);
+      *limb_m);
 }
 
 }  // namespace ossa::recon

@@ -460,7 +460,7 @@ INSTANTIATE_TEST_SUITE_P(
         Foreign{"Coco", R"([{"image_id":1,"keypoints":[1,2,1]}])", "2D key points (COCO)"},
         Foreign{"MediaPipe", R"([{"landmarks":[{"x":0.5,"y":0.5,"z":0,"visibility":1}]}])",
                 "MediaPipe's landmarks: write it as ossa's JSONL"},
-        Foreign{"Named", "0 SpineBase 0.1 0.2 2.0 0.9\n0 SpineMid 0.1 0.5 2.0 0.9\n",
+        Foreign{"Named", R"([{"SpineBase":[0.1,0.2,2.0],"SpineMid":[0.1,0.5,2.0]}])",
                 "joints by name: write it as ossa's JSONL"},
         Foreign{"Pickle", "\x80\x04\x95 poses", "a Python pickle"},
         Foreign{"Array", "\x93NUMPY\x01", "a NumPy array: write"},

@@ -129,9 +129,27 @@ inline std::string C3dBytes() {
 }
 
 /// One of each, for whoever wants them all.
+// Tables of people's own programs, with the names of both SDKs.
+inline std::string JointLines(size_t frames) {
+  std::string text;
+  for (size_t f = 0; f < frames; ++f) {
+    for (const char* name : {"Hip_Left", "KneeLeft", "SpineBase", "Neck", "SpineShoulder"}) {
+      text += std::to_string(f) + " " + name + " " + Triple(text.size() % 50, f, " ") + " 0.9\n";
+    }
+  }
+  return text;
+}
+
+inline std::string JointColumnsText() {
+  return "time,SpineBase_x,SpineBase_y,SpineBase_z,HipLeft.X,HipLeft.Y,HipLeft.Z,KneeLeft.X,"
+         "KneeLeft.Y,KneeLeft.Z\n0,0.01,0.1,2,0.1,0.1,2,0.1,-0.3,2\n0.04,0.01,0.1,2,,,,0.1,-0.3,"
+         "2\n";
+}
+
 inline std::vector<std::string> ForeignSkeletonTexts() {
-  return {GaitText(2),     MsrText(2), UtText(),    LabanText(2),  KeraalText(175),
-          KeraalText(119), NtuText(),  AzureText(), SaverBytes(2), C3dBytes()};
+  return {GaitText(2),     MsrText(2),      UtText(),      LabanText(2),
+          KeraalText(175), KeraalText(119), NtuText(),     AzureText(),
+          SaverBytes(2),   C3dBytes(),      JointLines(2), JointColumnsText()};
 }
 
 }  // namespace ossa::recon

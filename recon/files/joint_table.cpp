@@ -1,0 +1,207 @@
+#include "recon/files/joint_table_internal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "depth/base/error.h"
+#include "depth/base/statistics.h"
+#include "recon/files/point_bodies_internal.h"
+#include "recon/files/unlikely_unit_internal.h"
+
+namespace ossa::recon {
+namespace {
+
+std::optional<RowClock> ClockCalled(std::string_view name) {
+  const std::string plain = PlainName(name);
+  if (plain.starts_with("frame") || plain == "index") return RowClock{true, {}};
+  const bool is_time = plain.starts_with("time") || plain.starts_with("milli") ||
+                       plain.starts_with("sec") || plain == "t";
+  if (!is_time) return std::nullopt;
+  if (plain.ends_with("ms") || plain.find("milli") != plain.npos) return RowClock{false, 1e-3};
+  if (plain.ends_with("us") || plain.find("micro") != plain.npos) return RowClock{false, 1e-6};
+  if (plain.ends_with("ns") || plain.find("nano") != plain.npos) return RowClock{false, 1e-9};
+  const bool is_s = plain.ends_with("s") || plain.find("sec") != plain.npos;
+  return RowClock{false, is_s ? std::optional(1.0) : std::nullopt};
+}
+
+bool IsBodyColumn(std::string_view name) {
+  static const std::set<std::string> kNames = {"body",     "bodyid",    "id",         "person",
+                                               "personid", "player",    "skeletonid", "user",
+                                               "userid",   "trackingid"};
+  return kNames.contains(PlainName(name));
+}
+
+// --- When, and in which unit.
+
+/// From one row to the next, in the file's unit; 0 of a single one.
+double MedianStep(const std::vector<TableFrame>& frames) {
+  std::vector<double> steps;
+  for (size_t m = 1; m < frames.size(); ++m) steps.push_back(frames[m].at - frames[m - 1].at);
+  return steps.empty() ? 0.0 : Median(std::move(steps));
+}
+
+bool AreWhole(const std::vector<TableFrame>& frames) {
+  return std::all_of(frames.begin(), frames.end(),
+                     [](const TableFrame& m) { return m.at == std::floor(m.at); });
+}
+
+/// Seconds of the unit in which rows say when they were.
+double SecondsPerUnit(const RowClock& clock, const std::vector<TableFrame>& frames, double frame_s,
+                      SkeletonSequence& sequence) {
+  // By hand: nobody records less than a frame in two seconds; whole numbers that grow by one or two
+  // are frames'.
+  constexpr double kLongestStep_s = 2.0, kLongestFrames = 2.0, kSecondsPerMillisecond = 1e-3;
+  const double step = MedianStep(frames);
+  const bool are_frames = !clock.is_stated && AreWhole(frames) && step <= kLongestFrames;
+  if (clock.counts_frames || are_frames) return frame_s;
+  if (clock.s_per_unit) return *clock.s_per_unit;
+  if (step <= kLongestStep_s) return 1.0;
+  if (step > kLongestStep_s / kSecondsPerMillisecond) {
+    throw InputError(fmt::format(
+        "{}: expected frames, seconds or milliseconds, found {:.6g} from frame to frame: a header "
+        "says other units, such as time_us",
+        sequence.source, step));
+  }
+  sequence.warnings.push_back(
+      fmt::format("{}: times grow by {:.6g} from frame to frame: they are taken as milliseconds",
+                  sequence.source, step));
+  return kSecondsPerMillisecond;
+}
+
+/// Metres of the file's unit, by the limbs of people whose places are in it.
+double MetresOfUnit(SkeletonSequence& sequence) {
+  // By hand: from a toddler's upper arm to a giant's thigh.
+  constexpr double kShortest_m = 0.08, kLongest_m = 0.8, kMetresPerCentimetre = 1e-2,
+                   kMetresPerMillimetre = 1e-3;
+  const auto limb = MedianLimb(sequence);
+  if (!limb) {
+    sequence.warnings.push_back(sequence.source +
+                                ": no thigh, shin or upper arm shows the unit: it is taken as "
+                                "metres");
+    return 1.0;
+  }
+  const auto is_limb = [&](double unit_m) {
+    return *limb * unit_m >= kShortest_m && *limb * unit_m < kLongest_m;
+  };
+  const bool in_cm = is_limb(kMetresPerCentimetre);
+  if (!in_cm && !is_limb(kMetresPerMillimetre)) return 1.0;  // or Read() tells of its people's size
+  sequence.warnings.push_back(
+      fmt::format("{}: thighs, shins and upper arms are {:.3g} long: they are taken as {}",
+                  sequence.source, *limb, in_cm ? "centimetres" : "millimetres"));
+  return in_cm ? kMetresPerCentimetre : kMetresPerMillimetre;
+}
+
+void Scale(SkeletonSequence& sequence, double by) {
+  for (SkeletonFrame& frame : sequence.frames) {
+    for (BodyRecord& body : frame.bodies) {
+      for (auto& joint : body.joints) {
+        if (joint) joint->position_m *= by;
+      }
+    }
+  }
+}
+
+// --- The skeletons.
+
+void PutConfidences(const PointBody& body, const std::vector<std::optional<double>>& confidences,
+                    BodyRecord& record) {
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (!record.joints[j] || body.points[j].empty()) continue;
+    record.joints[j]->confidence = confidences[body.points[j].front()];
+  }
+}
+
+SkeletonFrame MakeTableFrame(const JointTable& table, const TableFrame& row,
+                             const std::vector<PointBody>& bodies, size_t index) {
+  std::vector<SeenPoint> points(table.labels().size());
+  std::vector<std::optional<double>> confidences(points.size());
+  for (const NamedPoint& one : row.seen) {
+    points[one.label] = one.place;
+    confidences[one.label] = one.confidence;
+  }
+  SkeletonFrame frame = MakeFrame(bodies, points, index, row.at);
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    PutConfidences(bodies[b], confidences, frame.bodies[b]);
+  }
+  return frame;
+}
+
+// Of people who come and go, those who are not in a frame.
+void LeaveOutAbsent(SkeletonFrame& frame) {
+  std::erase_if(frame.bodies, [](const BodyRecord& body) {
+    return std::none_of(body.joints.begin(), body.joints.end(),
+                        [](const auto& joint) { return joint.has_value(); });
+  });
+}
+
+}  // namespace
+
+std::string PlainName(std::string_view name) {
+  std::string plain;
+  for (const char c : name) {
+    if (c >= 'A' && c <= 'Z') plain.push_back(static_cast<char>(c - 'A' + 'a'));
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) plain.push_back(c);
+  }
+  return plain;
+}
+
+RowColumns FindRowColumns(const std::vector<std::string>& names) {
+  RowColumns columns;
+  for (size_t c = 0; c < names.size(); ++c) {
+    if (!columns.body && IsBodyColumn(names[c])) columns.body = c;
+    const auto clock = ClockCalled(names[c]);
+    // Times say more than frames.
+    const bool is_better = columns.time.counts_frames && clock && !clock->counts_frames;
+    if (!clock || (columns.clock && !is_better)) continue;
+    columns.clock = c;
+    columns.time = *clock;
+  }
+  return columns;
+}
+
+void JointTable::Begin(const TextLines& lines, double at) {
+  if (!frames_.empty() && at < frames_.back().at) {
+    lines.Fail(fmt::format("frames or times that grow, after {}", frames_.back().at),
+               fmt::format("{}", at));
+  }
+  if (frames_.empty() || at > frames_.back().at) frames_.push_back({at, {}, {}});
+}
+
+void JointTable::Add(const TextLines& lines, const std::string& label,
+                     const std::optional<Eigen::Vector3d>& place,
+                     std::optional<double> confidence) {
+  constexpr size_t kMostLabels = 4096;  // by hand: a hundred people
+  const size_t number = numbers_.emplace(label, labels_.size()).first->second;
+  if (number == labels_.size()) labels_.push_back(label);
+  if (labels_.size() > kMostLabels) lines.Fail("at most 4096 names", label);
+  TableFrame& now = frames_.back();
+  if (!now.labels.insert(number).second) {
+    lines.Fail("each joint once a frame (of several people a column 'body' says whose)", label);
+  }
+  // As the Kinect SDK, programs write the origin for what they have not seen.
+  if (place && !place->isZero(0.0)) now.seen.push_back({number, *place, confidence});
+}
+
+SkeletonSequence MakeSequence(const SkeletonInput& input, const JointTable& table,
+                              const RowColumns& columns) {
+  SkeletonSequence sequence{input.name, {}};
+  if (table.frames().empty()) RequireFrames(sequence);
+  const auto bodies =
+      FindPointBodies(table.labels(), input.mapping, {input.name, "joints"}, sequence.warnings);
+  const double s_per_unit =
+      SecondsPerUnit(columns.time, table.frames(), input.FrameTime_s(kKinectStep_s), sequence);
+  for (const TableFrame& row : table.frames()) {
+    SkeletonFrame frame = MakeTableFrame(table, row, bodies, sequence.frames.size());
+    frame.time_s *= s_per_unit;
+    if (columns.body) LeaveOutAbsent(frame);
+    sequence.frames.push_back(std::move(frame));
+  }
+  TakeOutNobody(sequence);
+  Scale(sequence, MetresOfUnit(sequence));
+  BringUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
+  return sequence;
+}
+
+}  // namespace ossa::recon

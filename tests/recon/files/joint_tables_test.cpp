@@ -1,0 +1,216 @@
+// Tables of joints by name: a line a joint, or a row a frame.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "tests/recon/files/skeleton_examples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ossa::recon {
+namespace {
+
+SkeletonSequence ReadTable(const std::string& text, const SkeletonReadOptions& options = {}) {
+  std::istringstream stream(text);
+  return ReadSkeletonStream(stream, "file", options);
+}
+
+std::string Exchanged(std::string text, const std::string& what, const std::string& by) {
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
+/// A leg of 0.4 m bones that moves by a millimetre, in metres.
+const std::string kJointLines =
+    "0 SpineBase 0.1 0.2 2 0.9\n"
+    "0 HIPLEFT 0.1 0.1 2 0.8\n"
+    "0 knee_left 0.1 -0.3 2 0.7\n"
+    "0 Head 0.1 0.8 2 0.6\n"
+    "1 SpineBase 0.101 0.2 2 0.9\n"
+    "1 HIPLEFT 0.1 0.1 2 0.8\n"
+    "1 knee_left 0.1 -0.3 2 0.7\n"
+    "1 Head 0.1 0.8 2 0.6\n";
+
+const std::string kJointColumns =
+    "time,SpineBase_x,SpineBase_y,SpineBase_z,HipLeft.X,HipLeft.Y,HipLeft.Z,KneeLeft (x),"
+    "KneeLeft (y),KneeLeft (z),Head_Position_x,Head_Position_y,Head_Position_z,Hand "
+    "state,HandLeft__\n"
+    "5.00,0.1,0.2,2,0.1,0.1,2,0.1,-0.3,2,0.1,0.8,2,open,\n"
+    "5.04,0.101,0.2,2,0.1,0.1,2,0.1,-0.3,2,0.1,0.8,2,open,\n";
+
+void ExpectLeg(const SkeletonSequence& read) {
+  ASSERT_EQ(read.frames.size(), 2u);
+  const auto expect = [&](size_t frame, Joint joint, const Eigen::Vector3d& place_m) {
+    EXPECT_LT((At(read, frame, joint) - place_m).norm(), 1e-12) << kJointNames[Index(joint)];
+  };
+  expect(0, Joint::kHipCenter, {0.1, 0.2, 2});
+  expect(1, Joint::kHipCenter, {0.101, 0.2, 2});
+  expect(0, Joint::kHipLeft, {0.1, 0.1, 2});
+  expect(1, Joint::kKneeLeft, {0.1, -0.3, 2});
+  expect(1, Joint::kHead, {0.1, 0.8, 2});
+}
+
+bool Tells(const SkeletonSequence& read, const std::string& what) {
+  return std::any_of(read.warnings.begin(), read.warnings.end(), [&](const std::string& warning) {
+    return warning.find(what) != std::string::npos;
+  });
+}
+
+TEST(JointLines, AreFramesOfNamedJointsWithTheirConfidence) {
+  const auto read = ReadTable(kJointLines);
+  ExpectLeg(read);
+  EXPECT_NEAR(read.frames[1].time_s, 1.0 / 30.0, 1e-12);
+  EXPECT_EQ(read.frames[1].bodies[0].joints[Index(Joint::kKneeLeft)]->confidence, 0.7);
+  SkeletonReadOptions slower;
+  slower.frame_s = 0.1;
+  EXPECT_NEAR(ReadTable(kJointLines, slower).frames[1].time_s, 0.1, 1e-12);
+}
+
+TEST(JointLines, MayHaveOtherSeparatorsAndAHeader) {
+  for (const char* separator : {",", "\t", ";", " , "})
+    ExpectLeg(ReadTable(Exchanged(kJointLines, " ", separator)));
+  ExpectLeg(ReadTable(Exchanged(Exchanged(kJointLines, " ", ";"), ".", ",")));
+  ExpectLeg(ReadTable("frame joint x y z confidence\n" + kJointLines));
+  const auto other =
+      ReadTable("z,y,x,name,time_ms\n2,0.1,0.1,HipLeft,40\n2,-0.3,0.1,KneeLeft,40\n");
+  EXPECT_NEAR(other.frames.at(0).time_s, 0.04, 1e-12);
+  EXPECT_LT((At(other, 0, Joint::kKneeLeft) - Eigen::Vector3d(0.1, -0.3, 2)).norm(), 1e-12);
+}
+
+TEST(JointLines, BeginWithAFrameOrATime) {
+  const auto second = [](const std::string& first, const std::string& next) {
+    std::string text = Exchanged(kJointLines, "\n1 ", "\n" + next + " ");
+    text = Exchanged("\n" + text, "\n0 ", "\n" + first + " ").substr(1);
+    const auto read = ReadTable(text);
+    return std::pair{read.frames.at(1).time_s - read.frames.at(0).time_s, read.warnings.size()};
+  };
+  EXPECT_NEAR(second("100", "102").first, 2.0 / 30.0, 1e-9);
+  EXPECT_NEAR(second("100.25", "100.29").first, 0.04, 1e-9);
+  EXPECT_EQ(second("100.25", "100.29").second, 0U);
+  EXPECT_NEAR(second("1605531234567", "1605531234600").first, 0.033, 1e-6);
+  EXPECT_EQ(second("1605531234567", "1605531234600").second, 1U);
+  const std::string ticks = "\n" + Exchanged(kJointLines, "\n1 ", "\n333333 ");
+  EXPECT_NE(ComplaintAbout(ticks).find("a header says other units"), std::string::npos);
+}
+
+TEST(JointColumns, AreFramesUnderAHeaderOfNamesAndAxes) {
+  const auto read = ReadTable(kJointColumns);
+  ExpectLeg(read);
+  EXPECT_NEAR(read.frames[1].time_s, 5.04, 1e-12);
+  EXPECT_TRUE(read.frames[0].bodies.size() == 1);
+  ExpectLeg(ReadTable(Exchanged(kJointColumns, ",", ";")));
+  const auto frames = ReadTable(Exchanged(Exchanged(kJointColumns, "time,", "Frame,"), "5.0", ""));
+  EXPECT_NEAR(frames.frames[1].time_s, 4.0 / 30.0, 1e-12);
+}
+
+TEST(JointLines, BlankNanAndOriginAreNotSeen) {
+  for (const char* gap : {",,", "nan,nan,nan", "0,0,0"}) {
+    const std::string text = Exchanged(Exchanged(kJointLines, " ", ","), "0.101,0.2,2", gap);
+    const auto read = ReadTable(Exchanged(text, ",0.9", ""));
+    EXPECT_FALSE(read.frames.at(1).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
+    EXPECT_TRUE(read.frames.at(0).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
+  }
+}
+
+TEST(JointColumns, BlankNanAndOriginAreNotSeen) {
+  for (const char* gap : {",,", "nan,nan,nan", "0,0,0"}) {
+    const auto read = ReadTable(Exchanged(kJointColumns, "0.101,0.2,2", gap));
+    EXPECT_FALSE(read.frames.at(1).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
+    EXPECT_TRUE(read.frames.at(0).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
+  }
+}
+
+TEST(JointTables, InMillimetresOrCentimetresAreKnownByTheLimbsAndTellSo) {
+  const auto thousandfold = [](double units) {
+    std::ostringstream text;
+    text << "frame,HipLeft_x,HipLeft_y,HipLeft_z,KneeLeft_x,KneeLeft_y,KneeLeft_z,Head_x,Head_y,"
+            "Head_z\n1,"
+         << 0.1 * units << ',' << 0.1 * units << ',' << 2 * units << ',' << 0.1 * units << ','
+         << -0.3 * units << ',' << 2 * units << ",,,\n";
+    return ReadTable(text.str());
+  };
+  for (const auto& [units, told] :
+       {std::pair{1.0, ""}, {100.0, "taken as centimetres"}, {1000.0, "taken as millimetres"}}) {
+    const auto read = thousandfold(units);
+    EXPECT_NEAR((At(read, 0, Joint::kHipLeft) - At(read, 0, Joint::kKneeLeft)).norm(), 0.4, 1e-9);
+    EXPECT_NEAR(At(read, 0, Joint::kKneeLeft).z(), 2.0, 1e-9);
+    EXPECT_EQ(Tells(read, "taken as"), *told != '\0') << units;
+    EXPECT_TRUE(Tells(read, told) || *told == '\0') << units;
+  }
+  EXPECT_TRUE(
+      Tells(ReadTable(Exchanged(kJointColumns, "KneeLeft", "FootLeft")), "taken as metres"));
+}
+
+TEST(JointTables, OfSeveralPeopleSayWhoseJointsTheyAre) {
+  const auto read = ReadTable(
+      "frame,body,joint,x,y,z\n0,7,HipLeft,0.1,0.1,2\n0,7,KneeLeft,0.1,-0.3,2\n"
+      "0,9,HipLeft,1,0.1,2\n0,9,KneeLeft,1,-0.3,2\n1,9,HipLeft,1,0.1,2\n1,9,KneeLeft,1,-0.3,2\n");
+  ASSERT_EQ(read.frames.size(), 2u);
+  ASSERT_EQ(read.frames[0].bodies.size(), 2u);
+  ASSERT_EQ(read.frames[1].bodies.size(), 1u);
+  EXPECT_EQ(read.frames[1].bodies[0].id, 2);
+  EXPECT_EQ(read.frames[0].bodies[1].joints[Index(Joint::kHipLeft)]->position_m.x(), 1.0);
+}
+
+TEST(JointTables, NeckIsTheShoulderCenterOnlyWhereNothingElseIs) {
+  const std::string with = kJointLines + "1 Neck 0.1 0.6 2\n1 SpineShoulder 0.1 0.5 2\n";
+  EXPECT_NEAR(At(ReadTable(with), 1, Joint::kShoulderCenter).y(), 0.5, 1e-12);
+  EXPECT_FALSE(Tells(ReadTable(with), "not read"));
+  EXPECT_NEAR(At(ReadTable(kJointLines + "1 Neck 0.1 0.6 2\n"), 1, Joint::kShoulderCenter).y(), 0.6,
+              1e-12);
+}
+
+TEST(JointTables, TakeOtherNamesByAMapping) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "names.txt") << "KneeLeft = Knie\nHipLeft = Huefte\n";
+  SkeletonReadOptions options;
+  options.mapping_file = folder / "names.txt";
+  for (const std::string& text : {kJointLines, kJointColumns}) {
+    std::string other = Exchanged(Exchanged(text, "knee_left", "Knie"), "KneeLeft", "Knie");
+    other = Exchanged(Exchanged(other, "HIPLEFT", "Huefte"), "HipLeft", "Huefte");
+    const auto read = ReadTable(other, options);
+    EXPECT_LT((At(read, 1, Joint::kKneeLeft) - Eigen::Vector3d(0.1, -0.3, 2)).norm(), 1e-12);
+  }
+}
+
+struct Bad {
+  const char* name;
+  std::string text, told;
+};
+
+void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.name; }
+
+class BadTables : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadTables, AreRefusedByTheLine) {
+  const std::string line = ComplaintAbout(GetParam().text);
+  EXPECT_NE(line.find("file: " + GetParam().told), std::string::npos) << line;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadTables,
+    testing::Values(
+        Bad{"Word", Exchanged(kJointLines, "0.101", "left"), "line 5: expected a finite number"},
+        Bad{"Short", kJointLines + "2 Head 0.1 0.8\n", "line 9: expected FRAME JOINT x y z"},
+        Bad{"Backwards", kJointLines + "0 Head 0.1 0.8 2\n",
+            "line 9: expected frames or times that"},
+        Bad{"Twice", kJointLines + "1 Head 0.1 0.8 2\n",
+            "line 9: expected each joint once a frame"},
+        Bad{"Confidence", kJointLines + "2 Head 0.1 0.8 2 7\n",
+            "line 9: expected a confidence from"},
+        Bad{"Column", Exchanged(kJointColumns, "2,open,\n5", "2\n5"),
+            "line 2: expected 15 columns"},
+        Bad{"Number", Exchanged(kJointColumns, "5.04", "late"), "line 3: expected a finite number"},
+        Bad{"NoRows", kJointColumns.substr(0, kJointColumns.find('\n')),
+            "expected at least one frame"},
+        Bad{"Whose", Exchanged(kJointColumns, "time,", "body,"),
+            "line 1: expected a column frame or"},
+        Bad{"Names", "0 a 1 2 3\n0 b 1 2 3\n0 c 1 2 4\n",
+            "joints: expected points named as joints"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace ossa::recon
