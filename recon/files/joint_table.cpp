@@ -166,7 +166,9 @@ void JointTable::Begin(const TextLines& lines, double at) {
     lines.Fail(fmt::format("frames or times that grow, after {}", frames_.back().at),
                fmt::format("{}", at));
   }
-  if (frames_.empty() || at > frames_.back().at) frames_.push_back({at, {}, {}});
+  if (!frames_.empty() && at == frames_.back().at) return;
+  frames_.push_back({at, {}});
+  named_.clear();
 }
 
 void JointTable::Add(const TextLines& lines, const std::string& label,
@@ -176,12 +178,11 @@ void JointTable::Add(const TextLines& lines, const std::string& label,
   const size_t number = numbers_.emplace(label, labels_.size()).first->second;
   if (number == labels_.size()) labels_.push_back(label);
   if (labels_.size() > kMostLabels) lines.Fail("at most 4096 names", label);
-  TableFrame& now = frames_.back();
-  if (!now.labels.insert(number).second) {
+  if (!named_.insert(number).second) {
     lines.Fail("each joint once a frame (of several people a column 'body' says whose)", label);
   }
   // As the Kinect SDK, programs write the origin for what they have not seen.
-  if (place && !place->isZero(0.0)) now.seen.push_back({number, *place, confidence});
+  if (place && !place->isZero(0.0)) frames_.back().seen.push_back({number, *place, confidence});
 }
 
 SkeletonSequence MakeSequence(const SkeletonInput& input, const JointTable& table,

@@ -40,7 +40,6 @@ struct NamedPoint {
 struct TableFrame {
   double at = 0.0;
   std::vector<NamedPoint> seen;
-  std::set<size_t> labels;  // said of it, seen or not
 };
 
 /// Joints by name, frame by frame, as a table's rows bring them.
@@ -60,6 +59,7 @@ class JointTable {
   std::vector<std::string> labels_;
   std::map<std::string, size_t> numbers_;
   std::vector<TableFrame> frames_;
+  std::set<size_t> named_;  // in the last frame, seen or not
 };
 
 /// The people of a table, metres, at their times; what was assumed of the unit and of times is in
