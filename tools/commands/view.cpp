@@ -104,6 +104,7 @@ tracker::TrackerOptions MakeOptions(const ViewOptions& options, const viewer::Se
 tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings& settings,
                              bool is_live) {
   tracker::TrackerOptions with = MakeOptions(options, settings);
+  SayWarnings("view", with.models->warnings);
   with.keep_parts = !is_live;  // of a camera the page finds them, for who looks
   return tracker::Tracker(with);
 }

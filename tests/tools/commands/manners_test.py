@@ -294,7 +294,7 @@ class ManualPages(unittest.TestCase):
             return page.replace("\\-", "-").replace("\\fI", "").replace("\\fB", "").replace("\\fR", "")
         self.assertIn("\nossa track SOURCE [MORE ...] [OPTIONS]\n", text("track"))
         self.assertIn("WIDTHxHEIGHT in pixels (default 640x480)\n", text("render"))
-        self.assertIn("\n--weights FLOAT x 4\ncontrol, style, kinematics, continuity (Shum 2013 eq. 15)\n", text("reconstruct"))
+        self.assertIn("\n--weights FLOAT x 4\nweights of control, style, kinematics, continuity (Shum 2013 eq. 15)\n", text("reconstruct"))
         self.assertIn("repeat for more (required; may be repeated)\n", text("prior"))
         self.assertIn("the .ossadb file to write (required)\n", text("database"))
         self.assertIn("trees of the forest ([1 - 16]; default 3)\n", text("train"))
