@@ -6,22 +6,11 @@
 #include <sstream>
 
 #include "tests/recon/files/skeleton_examples.h"
+#include "tests/recon/files/skeleton_texts.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
 namespace {
-
-SkeletonSequence ReadTable(const std::string& text, const SkeletonReadOptions& options = {}) {
-  std::istringstream stream(text);
-  return ReadSkeletonStream(stream, "file", options);
-}
-
-std::string Exchanged(std::string text, const std::string& what, const std::string& by) {
-  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
-    text.replace(at, what.size(), by);
-  }
-  return text;
-}
 
 /// A leg of 0.4 m bones that moves by a millimetre, in metres.
 const std::string kJointLines =
@@ -60,31 +49,30 @@ bool Tells(const SkeletonSequence& read, const std::string& what) {
 }
 
 TEST(JointLines, AreFramesOfNamedJointsWithTheirConfidence) {
-  const auto read = ReadTable(kJointLines);
+  const auto read = ReadText(kJointLines);
   ExpectLeg(read);
   EXPECT_NEAR(read.frames[1].time_s, 1.0 / 30.0, 1e-12);
   EXPECT_EQ(read.frames[1].bodies[0].joints[Index(Joint::kKneeLeft)]->confidence, 0.7);
   SkeletonReadOptions slower;
   slower.frame_s = 0.1;
-  EXPECT_NEAR(ReadTable(kJointLines, slower).frames[1].time_s, 0.1, 1e-12);
+  EXPECT_NEAR(ReadText(kJointLines, slower).frames[1].time_s, 0.1, 1e-12);
 }
 
 TEST(JointLines, MayHaveOtherSeparatorsAndAHeader) {
   for (const char* separator : {",", "\t", ";", " , "})
-    ExpectLeg(ReadTable(Exchanged(kJointLines, " ", separator)));
-  ExpectLeg(ReadTable(Exchanged(Exchanged(kJointLines, " ", ";"), ".", ",")));
-  ExpectLeg(ReadTable("frame joint x y z confidence\n" + kJointLines));
-  const auto other =
-      ReadTable("z,y,x,name,time_ms\n2,0.1,0.1,HipLeft,40\n2,-0.3,0.1,KneeLeft,40\n");
+    ExpectLeg(ReadText(ReplacedAll(kJointLines, " ", separator)));
+  ExpectLeg(ReadText(ReplacedAll(ReplacedAll(kJointLines, " ", ";"), ".", ",")));
+  ExpectLeg(ReadText("frame joint x y z confidence\n" + kJointLines));
+  const auto other = ReadText("z,y,x,name,time_ms\n2,0.1,0.1,HipLeft,40\n2,-0.3,0.1,KneeLeft,40\n");
   EXPECT_NEAR(other.frames.at(0).time_s, 0.04, 1e-12);
   EXPECT_LT((At(other, 0, Joint::kKneeLeft) - Eigen::Vector3d(0.1, -0.3, 2)).norm(), 1e-12);
 }
 
 TEST(JointLines, BeginWithAFrameOrATime) {
   const auto second = [](const std::string& first, const std::string& next) {
-    std::string text = Exchanged(kJointLines, "\n1 ", "\n" + next + " ");
-    text = Exchanged("\n" + text, "\n0 ", "\n" + first + " ").substr(1);
-    const auto read = ReadTable(text);
+    std::string text = ReplacedAll(kJointLines, "\n1 ", "\n" + next + " ");
+    text = ReplacedAll("\n" + text, "\n0 ", "\n" + first + " ").substr(1);
+    const auto read = ReadText(text);
     return std::pair{read.frames.at(1).time_s - read.frames.at(0).time_s, read.warnings.size()};
   };
   EXPECT_NEAR(second("100", "102").first, 2.0 / 30.0, 1e-9);
@@ -92,24 +80,25 @@ TEST(JointLines, BeginWithAFrameOrATime) {
   EXPECT_EQ(second("100.25", "100.29").second, 0U);
   EXPECT_NEAR(second("1605531234567", "1605531234600").first, 0.033, 1e-6);
   EXPECT_EQ(second("1605531234567", "1605531234600").second, 1U);
-  const std::string ticks = "\n" + Exchanged(kJointLines, "\n1 ", "\n333333 ");
+  const std::string ticks = "\n" + ReplacedAll(kJointLines, "\n1 ", "\n333333 ");
   EXPECT_NE(ComplaintAbout(ticks).find("a header says other units"), std::string::npos);
 }
 
 TEST(JointColumns, AreFramesUnderAHeaderOfNamesAndAxes) {
-  const auto read = ReadTable(kJointColumns);
+  const auto read = ReadText(kJointColumns);
   ExpectLeg(read);
   EXPECT_NEAR(read.frames[1].time_s, 5.04, 1e-12);
   EXPECT_TRUE(read.frames[0].bodies.size() == 1);
-  ExpectLeg(ReadTable(Exchanged(kJointColumns, ",", ";")));
-  const auto frames = ReadTable(Exchanged(Exchanged(kJointColumns, "time,", "Frame,"), "5.0", ""));
+  ExpectLeg(ReadText(ReplacedAll(kJointColumns, ",", ";")));
+  const auto frames =
+      ReadText(ReplacedAll(ReplacedAll(kJointColumns, "time,", "Frame,"), "5.0", ""));
   EXPECT_NEAR(frames.frames[1].time_s, 4.0 / 30.0, 1e-12);
 }
 
 TEST(JointLines, BlankNanAndOriginAreNotSeen) {
   for (const char* gap : {",,", "nan,nan,nan", "0,0,0"}) {
-    const std::string text = Exchanged(Exchanged(kJointLines, " ", ","), "0.101,0.2,2", gap);
-    const auto read = ReadTable(Exchanged(text, ",0.9", ""));
+    const std::string text = ReplacedAll(ReplacedAll(kJointLines, " ", ","), "0.101,0.2,2", gap);
+    const auto read = ReadText(ReplacedAll(text, ",0.9", ""));
     EXPECT_FALSE(read.frames.at(1).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
     EXPECT_TRUE(read.frames.at(0).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
   }
@@ -117,7 +106,7 @@ TEST(JointLines, BlankNanAndOriginAreNotSeen) {
 
 TEST(JointColumns, BlankNanAndOriginAreNotSeen) {
   for (const char* gap : {",,", "nan,nan,nan", "0,0,0"}) {
-    const auto read = ReadTable(Exchanged(kJointColumns, "0.101,0.2,2", gap));
+    const auto read = ReadText(ReplacedAll(kJointColumns, "0.101,0.2,2", gap));
     EXPECT_FALSE(read.frames.at(1).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
     EXPECT_TRUE(read.frames.at(0).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
   }
@@ -130,7 +119,7 @@ TEST(JointTables, InMillimetresOrCentimetresAreKnownByTheLimbsAndTellSo) {
             "Head_z\n1,"
          << 0.1 * units << ',' << 0.1 * units << ',' << 2 * units << ',' << 0.1 * units << ','
          << -0.3 * units << ',' << 2 * units << ",,,\n";
-    return ReadTable(text.str());
+    return ReadText(text.str());
   };
   for (const auto& [units, told] :
        {std::pair{1.0, ""}, {100.0, "taken as centimetres"}, {1000.0, "taken as millimetres"}}) {
@@ -141,11 +130,11 @@ TEST(JointTables, InMillimetresOrCentimetresAreKnownByTheLimbsAndTellSo) {
     EXPECT_TRUE(Tells(read, told) || *told == '\0') << units;
   }
   EXPECT_TRUE(
-      Tells(ReadTable(Exchanged(kJointColumns, "KneeLeft", "FootLeft")), "taken as metres"));
+      Tells(ReadText(ReplacedAll(kJointColumns, "KneeLeft", "FootLeft")), "taken as metres"));
 }
 
 TEST(JointTables, OfSeveralPeopleSayWhoseJointsTheyAre) {
-  const auto read = ReadTable(
+  const auto read = ReadText(
       "frame,body,joint,x,y,z\n0,7,HipLeft,0.1,0.1,2\n0,7,KneeLeft,0.1,-0.3,2\n"
       "0,9,HipLeft,1,0.1,2\n0,9,KneeLeft,1,-0.3,2\n1,9,HipLeft,1,0.1,2\n1,9,KneeLeft,1,-0.3,2\n");
   ASSERT_EQ(read.frames.size(), 2u);
@@ -157,9 +146,9 @@ TEST(JointTables, OfSeveralPeopleSayWhoseJointsTheyAre) {
 
 TEST(JointTables, NeckIsTheShoulderCenterOnlyWhereNothingElseIs) {
   const std::string with = kJointLines + "1 Neck 0.1 0.6 2\n1 SpineShoulder 0.1 0.5 2\n";
-  EXPECT_NEAR(At(ReadTable(with), 1, Joint::kShoulderCenter).y(), 0.5, 1e-12);
-  EXPECT_FALSE(Tells(ReadTable(with), "not read"));
-  EXPECT_NEAR(At(ReadTable(kJointLines + "1 Neck 0.1 0.6 2\n"), 1, Joint::kShoulderCenter).y(), 0.6,
+  EXPECT_NEAR(At(ReadText(with), 1, Joint::kShoulderCenter).y(), 0.5, 1e-12);
+  EXPECT_FALSE(Tells(ReadText(with), "not read"));
+  EXPECT_NEAR(At(ReadText(kJointLines + "1 Neck 0.1 0.6 2\n"), 1, Joint::kShoulderCenter).y(), 0.6,
               1e-12);
 }
 
@@ -169,9 +158,9 @@ TEST(JointTables, TakeOtherNamesByAMapping) {
   SkeletonReadOptions options;
   options.mapping_file = folder / "names.txt";
   for (const std::string& text : {kJointLines, kJointColumns}) {
-    std::string other = Exchanged(Exchanged(text, "knee_left", "Knie"), "KneeLeft", "Knie");
-    other = Exchanged(Exchanged(other, "HIPLEFT", "Huefte"), "HipLeft", "Huefte");
-    const auto read = ReadTable(other, options);
+    std::string other = ReplacedAll(ReplacedAll(text, "knee_left", "Knie"), "KneeLeft", "Knie");
+    other = ReplacedAll(ReplacedAll(other, "HIPLEFT", "Huefte"), "HipLeft", "Huefte");
+    const auto read = ReadText(other, options);
     EXPECT_LT((At(read, 1, Joint::kKneeLeft) - Eigen::Vector3d(0.1, -0.3, 2)).norm(), 1e-12);
   }
 }
@@ -193,7 +182,7 @@ TEST_P(BadTables, AreRefusedByTheLine) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadTables,
     testing::Values(
-        Bad{"Word", Exchanged(kJointLines, "0.101", "left"), "line 5: expected a finite number"},
+        Bad{"Word", ReplacedAll(kJointLines, "0.101", "left"), "line 5: expected a finite number"},
         Bad{"Short", kJointLines + "2 Head 0.1 0.8\n", "line 9: expected FRAME JOINT x y z"},
         Bad{"Backwards", kJointLines + "0 Head 0.1 0.8 2\n",
             "line 9: expected frames or times that"},
@@ -201,12 +190,13 @@ INSTANTIATE_TEST_SUITE_P(
             "line 9: expected each joint once a frame"},
         Bad{"Confidence", kJointLines + "2 Head 0.1 0.8 2 7\n",
             "line 9: expected a confidence from"},
-        Bad{"Column", Exchanged(kJointColumns, "2,open,\n5", "2\n5"),
+        Bad{"Column", ReplacedAll(kJointColumns, "2,open,\n5", "2\n5"),
             "line 2: expected 15 columns"},
-        Bad{"Number", Exchanged(kJointColumns, "5.04", "late"), "line 3: expected a finite number"},
+        Bad{"Number", ReplacedAll(kJointColumns, "5.04", "late"),
+            "line 3: expected a finite number"},
         Bad{"NoRows", kJointColumns.substr(0, kJointColumns.find('\n')),
             "expected at least one frame"},
-        Bad{"Whose", Exchanged(kJointColumns, "time,", "body,"),
+        Bad{"Whose", ReplacedAll(kJointColumns, "time,", "body,"),
             "line 1: expected a column frame or"},
         Bad{"Names", "0 a 1 2 3\n0 b 1 2 3\n0 c 1 2 4\n",
             "joints: expected points named as joints"}),

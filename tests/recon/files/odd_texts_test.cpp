@@ -13,18 +13,6 @@
 namespace ossa::recon {
 namespace {
 
-SkeletonSequence Read(const std::string& text, const SkeletonReadOptions& options = {}) {
-  std::istringstream stream(text);
-  return ReadSkeletonStream(stream, "file", options);
-}
-
-std::string Replaced(std::string text, const std::string& what, const std::string& by) {
-  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
-    text.replace(at, what.size(), by);
-  }
-  return text;
-}
-
 /// Two markers and a third that is no joint, millimetres, three frames.
 const std::string kTrc =
     "PathFileType\t4\t(X/Y/Z)\tx.trc\n"
@@ -55,7 +43,7 @@ void PrintTo(const OddTrc& odd, std::ostream* out) { *out << odd.name; }
 class OddTrcs : public testing::TestWithParam<OddTrc> {};
 
 TEST_P(OddTrcs, AreReadAsThePlainOne) {
-  const auto read = Read(GetParam().text);
+  const auto read = ReadText(GetParam().text);
   ExpectKneeAndHead(read, GetParam().size);
   EXPECT_TRUE(read.warnings.empty()) << read.warnings.front();
 }
@@ -63,31 +51,32 @@ TEST_P(OddTrcs, AreReadAsThePlainOne) {
 INSTANTIATE_TEST_SUITE_P(
     All, OddTrcs,
     testing::Values(
-        OddTrc{"Plain", kTrc}, OddTrc{"CrOnly", Replaced(kTrc, "\n", "\r")},
-        OddTrc{"CrLf", Replaced(kTrc, "\n", "\r\n")},
+        OddTrc{"Plain", kTrc}, OddTrc{"CrOnly", ReplacedAll(kTrc, "\n", "\r")},
+        OddTrc{"CrLf", ReplacedAll(kTrc, "\n", "\r\n")},
         OddTrc{"ByteOrderMark", "\xEF\xBB\xBF" + kTrc},
-        OddTrc{"LabelsFromX5",
-               Replaced(Replaced(kTrc, "X1\tY1\tZ1", "X5\tY5\tZ5"), "X2\tY2\tZ2", "X6\tY6\tZ6")},
-        OddTrc{"LabelsFromX0",
-               Replaced(Replaced(kTrc, "X1\tY1\tZ1", "X0\tY0\tZ0"), "X2\tY2\tZ2", "X1\tY1\tZ1")},
-        OddTrc{"Centimetres", Replaced(kTrc, "\tmm\t", "\tcm\t"), 10.0},
-        OddTrc{"Metres", Replaced(kTrc, "\tmm\t", "\tm\t"), 1000.0},
-        OddTrc{"CapitalMillimetres", Replaced(kTrc, "\tmm\t", "\tMM\t")},
-        OddTrc{"MetersWritten", Replaced(kTrc, "\tmm\t", "\tMeters\t"), 1000.0},
-        OddTrc{"Subject", Replaced(Replaced(kTrc, "LKnee", "Ann:LKnee"), "Head", "Ann:Head")},
+        OddTrc{"LabelsFromX5", ReplacedAll(ReplacedAll(kTrc, "X1\tY1\tZ1", "X5\tY5\tZ5"),
+                                           "X2\tY2\tZ2", "X6\tY6\tZ6")},
+        OddTrc{"LabelsFromX0", ReplacedAll(ReplacedAll(kTrc, "X1\tY1\tZ1", "X0\tY0\tZ0"),
+                                           "X2\tY2\tZ2", "X1\tY1\tZ1")},
+        OddTrc{"Centimetres", ReplacedAll(kTrc, "\tmm\t", "\tcm\t"), 10.0},
+        OddTrc{"Metres", ReplacedAll(kTrc, "\tmm\t", "\tm\t"), 1000.0},
+        OddTrc{"CapitalMillimetres", ReplacedAll(kTrc, "\tmm\t", "\tMM\t")},
+        OddTrc{"MetersWritten", ReplacedAll(kTrc, "\tmm\t", "\tMeters\t"), 1000.0},
+        OddTrc{"Subject", ReplacedAll(ReplacedAll(kTrc, "LKnee", "Ann:LKnee"), "Head", "Ann:Head")},
         OddTrc{"DoubleTabsInTheKeys",
-               Replaced(kTrc, "CameraRate\tNumFrames", "CameraRate\t\tNumFrames")},
-        OddTrc{"DoubleTabsInTheValues", Replaced(kTrc, "30\t30\t3\t2\tmm", "30\t\t30\t\t3\t2\tmm")},
+               ReplacedAll(kTrc, "CameraRate\tNumFrames", "CameraRate\t\tNumFrames")},
+        OddTrc{"DoubleTabsInTheValues",
+               ReplacedAll(kTrc, "30\t30\t3\t2\tmm", "30\t\t30\t\t3\t2\tmm")},
         OddTrc{"DoubleTabsInTheNames",
-               Replaced(kTrc, "Time\tLKnee\t\t\tHead", "Time\t\tLKnee\t\t\t\tHead")},
-        OddTrc{"TabsAtTheEndOfRows", Replaced(kTrc, "20.00\n", "20.00\t\t\n")},
+               ReplacedAll(kTrc, "Time\tLKnee\t\t\tHead", "Time\t\tLKnee\t\t\t\tHead")},
+        OddTrc{"TabsAtTheEndOfRows", ReplacedAll(kTrc, "20.00\n", "20.00\t\t\n")},
         OddTrc{"NoLastLineEnd", kTrc.substr(0, kTrc.size() - 1)}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(Trc, NanOfAnyProgramIsABlank) {
   for (const char* nan : {"NaN", "nan", "-nan", "-nan(ind)", "1.#QNAN", ""}) {
     const std::string gap = std::string(nan) + "\t" + nan + "\t" + nan;
-    const auto read = Read(Replaced(kTrc, "110.50\t500.25\t10.00", gap));
+    const auto read = ReadText(ReplacedAll(kTrc, "110.50\t500.25\t10.00", gap));
     const auto& joints = read.frames.at(1).bodies.at(0).joints;
     EXPECT_FALSE(joints[Index(Joint::kKneeLeft)].has_value()) << nan;
     EXPECT_TRUE(joints[Index(Joint::kHead)].has_value()) << nan;
@@ -96,7 +85,7 @@ TEST(Trc, NanOfAnyProgramIsABlank) {
 
 TEST(Trc, OfMoreOrFewerRowsThanItSaysIsWhatIsThereWithAWarning) {
   for (const char* said : {"\t2\t2\tmm", "\t9\t2\tmm"}) {
-    const auto read = Read(Replaced(kTrc, "\t3\t2\tmm", said));
+    const auto read = ReadText(ReplacedAll(kTrc, "\t3\t2\tmm", said));
     ExpectKneeAndHead(read);
     ASSERT_EQ(read.warnings.size(), 1u) << said;
     EXPECT_NE(read.warnings[0].find("the file has 3"), std::string::npos) << read.warnings[0];
@@ -114,16 +103,17 @@ TEST(Trc, CutInsideItsLastRowIsRefused) {
 
 // Some programs write z up; the format has y. The knee is below the hips here.
 TEST(Trc, OfPeopleWhoStandAlongZIsTurnedUprightWithAWarning) {
-  std::string text = Replaced(kTrc, "\t3\t2\tmm", "\t3\t3\tmm");
-  text = Replaced(text, "\tHead\t\t", "\tHead\t\t\tPelvis\t\t");
-  text = Replaced(text, "X2\tY2\tZ2", "X2\tY2\tZ2\tX3\tY3\tZ3");
+  std::string text = ReplacedAll(kTrc, "\t3\t2\tmm", "\t3\t3\tmm");
+  text = ReplacedAll(text, "\tHead\t\t", "\tHead\t\t\tPelvis\t\t");
+  text = ReplacedAll(text, "X2\tY2\tZ2", "X2\tY2\tZ2\tX3\tY3\tZ3");
   for (const char* knee : {"100.50", "110.50", "120.50"}) {
-    text = Replaced(text, std::string(knee) + "\t500.25\t10.00",
-                    std::string(knee) + "\t-900.00\t100.00");
+    text = ReplacedAll(text, std::string(knee) + "\t500.25\t10.00",
+                       std::string(knee) + "\t-900.00\t100.00");
   }
-  text = Replaced(text, "0.00\t1600.00\t20.00", "0.00\t-900.00\t1600.00\t0.00\t-900.00\t1000.00");
-  text = Replaced(text, "0.00\t1600.00\t2.75", "0.00\t-900.00\t1600.00\t0.00\t-900.00\t1000.00");
-  const auto read = Read(text);
+  text =
+      ReplacedAll(text, "0.00\t1600.00\t20.00", "0.00\t-900.00\t1600.00\t0.00\t-900.00\t1000.00");
+  text = ReplacedAll(text, "0.00\t1600.00\t2.75", "0.00\t-900.00\t1600.00\t0.00\t-900.00\t1000.00");
+  const auto read = ReadText(text);
   EXPECT_LT((At(read, 0, Joint::kHead) - Eigen::Vector3d(0, 1.6, 0.9)).norm(), 1e-9);
   EXPECT_LT((At(read, 2, Joint::kKneeLeft) - Eigen::Vector3d(0.1205, 0.1, 0.9)).norm(), 1e-9);
   ASSERT_EQ(read.warnings.size(), 1u);
@@ -131,16 +121,17 @@ TEST(Trc, OfPeopleWhoStandAlongZIsTurnedUprightWithAWarning) {
 }
 
 TEST(Trc, OfWhomNobodyStandsIsDoubted) {
-  const std::string standing = Replaced(kTrc, "LKnee", "Pelvis");
-  EXPECT_TRUE(Read(standing).warnings.empty());
-  const std::string lying = Replaced(standing, "\t0.00\t1600.00\t", "\t1600.00\t500.00\t");
-  const auto read = Read(lying);
+  const std::string standing = ReplacedAll(kTrc, "LKnee", "Pelvis");
+  EXPECT_TRUE(ReadText(standing).warnings.empty());
+  const std::string lying = ReplacedAll(standing, "\t0.00\t1600.00\t", "\t1600.00\t500.00\t");
+  const auto read = ReadText(lying);
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_NE(read.warnings[0].find("never stands along the axis taken as up"), std::string::npos);
 }
 
 TEST(Trc, OfTwoSubjectsIsTwoBodies) {
-  const auto read = Read(Replaced(Replaced(kTrc, "LKnee", "Ann:LKnee"), "Head", "Bob:Head"));
+  const auto read =
+      ReadText(ReplacedAll(ReplacedAll(kTrc, "LKnee", "Ann:LKnee"), "Head", "Bob:Head"));
   ASSERT_EQ(read.frames[0].bodies.size(), 2u);
   const auto has = [&](size_t body, Joint joint) {
     return read.frames[0].bodies[body].joints[Index(joint)].has_value();
@@ -150,7 +141,7 @@ TEST(Trc, OfTwoSubjectsIsTwoBodies) {
   EXPECT_TRUE(has(1, Joint::kHead));
 }
 
-const std::string kUnknownTrc = Replaced(Replaced(kTrc, "LKnee", "M01"), "Head", "M02");
+const std::string kUnknownTrc = ReplacedAll(ReplacedAll(kTrc, "LKnee", "M01"), "Head", "M02");
 
 TEST(Trc, WithoutKnownNamesSaysWhichItHasAndHowToMapThem) {
   const std::string complaint = ComplaintAbout(kUnknownTrc);
@@ -164,14 +155,15 @@ TEST(Trc, WithoutKnownNamesSaysWhichItHasAndHowToMapThem) {
 TEST(Trc, NamesInAnyLanguageAreListedAsTheyAre) {
   std::string long_name;
   for (int i = 0; i < 30; ++i) long_name += "\u00FC";  // two bytes each
-  const std::string text = Replaced(Replaced(kUnknownTrc, "M01", "H\u00FCfte"), "M02", long_name);
+  const std::string text =
+      ReplacedAll(ReplacedAll(kUnknownTrc, "M01", "H\u00FCfte"), "M02", long_name);
   const std::string complaint = ComplaintAbout(text);
   const std::string said = "found 'H\u00FCfte', '" + long_name.substr(0, 40) + "...'";
   EXPECT_NE(complaint.find(said), std::string::npos) << complaint;
 }
 
 TEST(Trc, WithAJointTwiceIsReadWithAWarningThatNamesTheOther) {
-  const auto read = Read(Replaced(kTrc, "Head", "L_Knee"));
+  const auto read = ReadText(ReplacedAll(kTrc, "Head", "L_Knee"));
   EXPECT_LT((At(read, 1, Joint::kKneeLeft) - Eigen::Vector3d(0.1105, 0.50025, 0.01)).norm(), 1e-9);
   ASSERT_FALSE(read.warnings.empty());
   EXPECT_NE(read.warnings.back().find("line 4: not read: 'L_Knee', for points before"),
@@ -180,7 +172,7 @@ TEST(Trc, WithAJointTwiceIsReadWithAWarningThatNamesTheOther) {
 }
 
 TEST(Trc, WithFewKnownNamesIsReadWithAWarningThatListsAll) {
-  const auto read = Read(Replaced(kTrc, "Head", "M02"));
+  const auto read = ReadText(ReplacedAll(kTrc, "Head", "M02"));
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_NE(read.warnings[0].find("only 1 of the points are known"), std::string::npos);
   EXPECT_NE(read.warnings[0].find("'M02'"), std::string::npos) << read.warnings[0];
@@ -198,25 +190,25 @@ class MappedPoints : public testing::Test {
 };
 
 TEST_F(MappedPoints, AreJointsOrBonesAndTheMiddleOfSeveral) {
-  ExpectKneeAndHead(Read(kUnknownTrc, Mapping("KneeLeft = M01\nHead=M02\n")));
-  ExpectKneeAndHead(Read(kUnknownTrc, Mapping("LeftLeg = M01\nHead = M02\n")));
-  const auto middle = Read(kUnknownTrc, Mapping("Spine = M01 + M02\n"));
+  ExpectKneeAndHead(ReadText(kUnknownTrc, Mapping("KneeLeft = M01\nHead=M02\n")));
+  ExpectKneeAndHead(ReadText(kUnknownTrc, Mapping("LeftLeg = M01\nHead = M02\n")));
+  const auto middle = ReadText(kUnknownTrc, Mapping("Spine = M01 + M02\n"));
   EXPECT_LT((At(middle, 0, Joint::kSpine) - Eigen::Vector3d(0.05025, 1.050125, 0.015)).norm(),
             1e-9);
 }
 
 TEST_F(MappedPoints, AreRefusedByTheLineThatNamesNone) {
   const auto options = Mapping("# of ours\nKneeLeft = M01\nHead = M03\n");
-  ossa::test::ExpectRefused([&] { Read(kUnknownTrc, options); },
+  ossa::test::ExpectRefused([&] { ReadText(kUnknownTrc, options); },
                             "names.txt: line 3: expected a point of file, found 'M03'");
 }
 
 TEST_F(MappedPoints, OfAC3dAreReadLikewise) {
-  const std::string text = Replaced(C3dBytes(), "HipCenter Head", "Ball      Hat ");
+  const std::string text = ReplacedAll(C3dBytes(), "HipCenter Head", "Ball      Hat ");
   const std::string complaint = ComplaintAbout(text);
   EXPECT_NE(complaint.find("found 'Ball', 'Hat'"), std::string::npos) << complaint;
-  const auto read = Read(text, Mapping("HipCenter = Ball\nHead = Hat\n"));
-  EXPECT_LT((At(read, 0, Joint::kHead) - At(Read(C3dBytes()), 0, Joint::kHead)).norm(), 1e-12);
+  const auto read = ReadText(text, Mapping("HipCenter = Ball\nHead = Hat\n"));
+  EXPECT_LT((At(read, 0, Joint::kHead) - At(ReadText(C3dBytes()), 0, Joint::kHead)).norm(), 1e-12);
 }
 
 /// The number of the other processor's bytes for the same values.
@@ -252,9 +244,9 @@ std::string ForDec(std::string bytes) {
 }
 
 TEST(C3d, OfEveryProcessorIsTheSame) {
-  const auto intel = Read(C3dBytes());
+  const auto intel = ReadText(C3dBytes());
   for (const std::string& bytes : {ForMips(C3dBytes()), ForDec(C3dBytes())}) {
-    const auto read = Read(bytes);
+    const auto read = ReadText(bytes);
     ASSERT_EQ(read.frames.size(), intel.frames.size());
     EXPECT_NEAR(read.frames[1].time_s, 0.02, 1e-9);
     for (size_t f = 0; f < 2; ++f) {
@@ -269,7 +261,7 @@ TEST(C3d, OfEveryProcessorIsTheSame) {
 TEST(C3d, NanIsNotSeen) {
   std::string bytes = C3dBytes();
   Put<float>(bytes, 1024 + 16, std::numeric_limits<float>::quiet_NaN());
-  EXPECT_FALSE(Read(bytes).frames[0].bodies[0].joints[3].has_value());
+  EXPECT_FALSE(ReadText(bytes).frames[0].bodies[0].joints[3].has_value());
 }
 
 std::string OwnCsv() {
@@ -295,15 +287,16 @@ std::string InQuotes(const std::string& text, char separator) {
 
 TEST(OwnCsv, AsSpreadsheetsSaveItIsTheSame) {
   const std::string own = OwnCsv();
-  std::string european = Replaced(own, ",", ";");
-  european = Replaced(european, ".", ",");
+  std::string european = ReplacedAll(own, ",", ";");
+  european = ReplacedAll(european, ".", ",");
   for (const std::string& text :
-       {european, Replaced(own, ",", "\t"), InQuotes(own, ','), InQuotes(european, ';'),
-        "\xEF\xBB\xBF" + Replaced(european, "\n", "\r\n"), Replaced(own, "\n", ",,,\n"),
-        InQuotes(Replaced(Replaced(Replaced(own, ",", "|"), ".", ","), "\n", "|\n"), '|')}) {
-    const std::string table = Replaced(text, "|", ",");
-    const auto read = Read(table);
-    const auto plain = Read(own);
+       {european, ReplacedAll(own, ",", "\t"), InQuotes(own, ','), InQuotes(european, ';'),
+        "\xEF\xBB\xBF" + ReplacedAll(european, "\n", "\r\n"), ReplacedAll(own, "\n", ",,,\n"),
+        InQuotes(ReplacedAll(ReplacedAll(ReplacedAll(own, ",", "|"), ".", ","), "\n", "|\n"),
+                 '|')}) {
+    const std::string table = ReplacedAll(text, "|", ",");
+    const auto read = ReadText(table);
+    const auto plain = ReadText(own);
     ASSERT_EQ(read.frames.size(), plain.frames.size());
     for (size_t f = 0; f < 3; ++f) {
       EXPECT_EQ(At(read, f, Joint::kHead), At(plain, f, Joint::kHead));
@@ -315,7 +308,7 @@ TEST(OwnCsv, AsSpreadsheetsSaveItIsTheSame) {
 TEST(OwnCsv, RowsOfSeparatorsAloneArePassedOver) {
   const std::string own = OwnCsv();
   for (const char* rows : {",,,,\n", ",\n,\n"}) {
-    EXPECT_EQ(Read(own + rows).frames.size(), Read(own).frames.size());
+    EXPECT_EQ(ReadText(own + rows).frames.size(), ReadText(own).frames.size());
   }
 }
 
@@ -325,7 +318,7 @@ TEST(OwnCsv, CutInsideARowIsRefused) {
 }
 
 TEST(Ntu, WithNanKeepsTheOtherJoints) {
-  const auto read = Read(Replaced(NtuText(), "0 0 3 277", "NaN NaN NaN 277"));
+  const auto read = ReadText(ReplacedAll(NtuText(), "0 0 3 277", "NaN NaN NaN 277"));
   ASSERT_EQ(read.frames.size(), 2u);
   size_t joints = 0;
   for (const auto& joint : read.frames[1].bodies.at(0).joints) joints += joint ? 1 : 0;
@@ -335,10 +328,10 @@ TEST(Ntu, WithNanKeepsTheOtherJoints) {
 TEST(Ntu, WithWrongCountsKeepsWhatIsThereWithAWarning) {
   const std::string good = NtuText();
   for (const std::string& text :
-       {Replaced(good, "2\n0\n1\n", "7\n0\n1\n"), Replaced(good, "2\n0\n1\n", "1\n0\n1\n"),
-        Replaced(good, "2\n0\n1\n", "2\n0\n3\n"), Replaced(good, "2\n0\n1\n", "2\n2\n1\n"),
-        Replaced(good, "2\n0\n1\n", "2\n0\n0\n")}) {
-    const auto read = Read(text);
+       {ReplacedAll(good, "2\n0\n1\n", "7\n0\n1\n"), ReplacedAll(good, "2\n0\n1\n", "1\n0\n1\n"),
+        ReplacedAll(good, "2\n0\n1\n", "2\n0\n3\n"), ReplacedAll(good, "2\n0\n1\n", "2\n2\n1\n"),
+        ReplacedAll(good, "2\n0\n1\n", "2\n0\n0\n")}) {
+    const auto read = ReadText(text);
     ASSERT_EQ(read.frames.size(), 2u);
     EXPECT_TRUE(read.frames[0].bodies.empty());
     EXPECT_EQ(read.frames[1].bodies.size(), 1u);
@@ -365,8 +358,8 @@ void PrintTo(const OddBvh& odd, std::ostream* out) { *out << odd.name; }
 class OddBvhs : public testing::TestWithParam<OddBvh> {};
 
 TEST_P(OddBvhs, AreReadAsThePlainOne) {
-  const auto plain = Read(test::FigureBvh());
-  const auto read = Read(GetParam().text);
+  const auto plain = ReadText(test::FigureBvh());
+  const auto read = ReadText(GetParam().text);
   ASSERT_EQ(read.frames.size(), plain.frames.size());
   for (const size_t f : {size_t{0}, plain.frames.size() - 1}) {
     EXPECT_EQ(At(read, f, Joint::kHandLeft), At(plain, f, Joint::kHandLeft));
@@ -381,20 +374,22 @@ TEST_P(OddBvhs, AreReadAsThePlainOne) {
 INSTANTIATE_TEST_SUITE_P(
     All, OddBvhs,
     testing::Values(
-        OddBvh{"CrOnly", Replaced(test::FigureBvh(), "\n", "\r"), ""},
-        OddBvh{"CrLf", Replaced(test::FigureBvh(), "\n", "\r\n"), ""},
+        OddBvh{"CrOnly", ReplacedAll(test::FigureBvh(), "\n", "\r"), ""},
+        OddBvh{"CrLf", ReplacedAll(test::FigureBvh(), "\n", "\r\n"), ""},
         OddBvh{"ByteOrderMark", "\xEF\xBB\xBF" + test::FigureBvh(), ""},
-        OddBvh{"LowerCase", Replaced(test::FigureBvh(), "HIERARCHY", "hierarchy"), ""},
-        OddBvh{"NoSpaceAfterColons",
-               Replaced(Replaced(test::FigureBvh(), "Frames: ", "Frames:"), "Time: ", "Time:"), ""},
-        OddBvh{"SpaceBeforeColons", Replaced(test::FigureBvh(), "Frames:", "Frames :"), ""},
+        OddBvh{"LowerCase", ReplacedAll(test::FigureBvh(), "HIERARCHY", "hierarchy"), ""},
+        OddBvh{
+            "NoSpaceAfterColons",
+            ReplacedAll(ReplacedAll(test::FigureBvh(), "Frames: ", "Frames:"), "Time: ", "Time:"),
+            ""},
+        OddBvh{"SpaceBeforeColons", ReplacedAll(test::FigureBvh(), "Frames:", "Frames :"), ""},
         OddBvh{"EndSiteChannels0",
-               Replaced(test::FigureBvh(), "0.000000\n}", "0.000000\nCHANNELS 0\n}"), ""},
-        OddBvh{"MoreFramesSaid", Replaced(test::FigureBvh(), "Frames: 30", "Frames: 75"),
+               ReplacedAll(test::FigureBvh(), "0.000000\n}", "0.000000\nCHANNELS 0\n}"), ""},
+        OddBvh{"MoreFramesSaid", ReplacedAll(test::FigureBvh(), "Frames: 30", "Frames: 75"),
                "the header says 75 frames, the file has 30"},
-        OddBvh{"FewerFramesSaid", Replaced(test::FigureBvh(), "Frames: 30", "Frames: 7"),
+        OddBvh{"FewerFramesSaid", ReplacedAll(test::FigureBvh(), "Frames: 30", "Frames: 7"),
                "the header says 7 frames, the file has 30"},
-        OddBvh{"FramesASecondForATime", Replaced(test::FigureBvh(), "0.0333333", "30"),
+        OddBvh{"FramesASecondForATime", ReplacedAll(test::FigureBvh(), "0.0333333", "30"),
                "Frame Time says 30 s a frame"},
         OddBvh{"NoLastLineEnd", test::FigureBvh().substr(0, test::FigureBvh().size() - 1), ""}),
     [](const auto& info) { return std::string(info.param.name); });
@@ -418,8 +413,8 @@ TEST(TrcUnits, OfAnotherThanTheFileIsInAreToldOf) {
       return warning.find("m long, which are no person's") != std::string::npos;
     });
   };
-  EXPECT_FALSE(tells(Read(text)));
-  EXPECT_TRUE(tells(Read(Replaced(text, "\tmm\t", "\tm\t"))));
+  EXPECT_FALSE(tells(ReadText(text)));
+  EXPECT_TRUE(tells(ReadText(ReplacedAll(text, "\tmm\t", "\tm\t"))));
 }
 
 struct Foreign {
@@ -433,7 +428,7 @@ class ForeignRecordings : public testing::TestWithParam<Foreign> {};
 
 TEST_P(ForeignRecordings, AreRefusedByNameAndWithAWay) {
   try {
-    Read(GetParam().text);
+    ReadText(GetParam().text);
     ADD_FAILURE() << "read";
   } catch (const InputError& error) {
     const std::string line = error.what();

@@ -19,6 +19,14 @@
 namespace ossa::recon {
 namespace {
 
+/// The skin that ossa ships; null where there is none.
+std::shared_ptr<const BodyMesh> ShippedBody() {
+  const std::filesystem::path shipped = test::SourceFolder() / "tools/tracker/shipped";
+  if (!std::filesystem::exists(shipped / "body.ossamesh")) return nullptr;
+  const auto surface = BodySurface::Load(shipped / "body.ossasurface");
+  return std::make_shared<BodyMesh>(BodyMesh::Load(shipped / "body.ossamesh", surface));
+}
+
 std::string TextOf(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -51,11 +59,10 @@ TEST(GltfWriter, SaysTheSameEveryTime) {
 // Of whoever no fit had seen it was whatever memory held: a misshapen body, or places that are no
 // numbers.
 TEST(GltfWriter, WhoseShapeIsNotKnownHasTheMeanBody) {
-  const std::filesystem::path shipped = test::SourceFolder() / "tools/tracker/shipped";
-  if (!std::filesystem::exists(shipped / "body.ossamesh")) GTEST_SKIP() << "no shipped body";
-  const auto surface = BodySurface::Load(shipped / "body.ossasurface");
+  const auto body = ShippedBody();
+  if (!body) GTEST_SKIP() << "no shipped body";
   SkeletonWriteOptions options;
-  options.body = std::make_shared<BodyMesh>(BodyMesh::Load(shipped / "body.ossamesh", surface));
+  options.body = body;
   const test::TemporaryFolder folder;
   constexpr int kAnyByte = 165;
   mallopt(M_PERTURB, kAnyByte);  // new memory is not 0, as at the start of a program
@@ -105,11 +112,10 @@ TEST(GltfWriter, OnAFullDiskLeavesNothing) {
 
 // A skin is some 200 kB.
 TEST(GltfWriter, WhereTheSkinDoesNotFitTheMotionIsKept) {
-  const std::filesystem::path shipped = test::SourceFolder() / "tools/tracker/shipped";
-  if (!std::filesystem::exists(shipped / "body.ossamesh")) GTEST_SKIP() << "no shipped body";
-  const auto surface = BodySurface::Load(shipped / "body.ossasurface");
+  const auto body = ShippedBody();
+  if (!body) GTEST_SKIP() << "no shipped body";
   SkeletonWriteOptions options;
-  options.body = std::make_shared<BodyMesh>(BodyMesh::Load(shipped / "body.ossamesh", surface));
+  options.body = body;
   const test::TemporaryFolder folder;
   SkeletonWriter writer(folder / "x.glb", options);
   for (const SkeletonFrame& frame : ExampleSequence(20).frames) writer.Write(frame);

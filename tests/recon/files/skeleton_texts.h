@@ -7,7 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "recon/files/skeleton_io.h"
+
 namespace ossa::recon {
+
+/// What is read of a recording with this text, called "file".
+inline SkeletonSequence ReadText(const std::string& text, const SkeletonReadOptions& options = {}) {
+  std::istringstream stream(text);
+  return ReadSkeletonStream(stream, "file", options);
+}
+
+inline std::string ReplacedAll(std::string text, const std::string& what, const std::string& by) {
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
 
 // Numbers that differ in every place: x = 0.01 joint, y = 0.1 frame, z = 2.
 inline std::string Triple(size_t joint, size_t frame, const char* separator) {

@@ -13,6 +13,17 @@
 namespace ossa::tools {
 namespace {
 
+/// Why asking is refused; "" if it is not.
+template <typename Ask>
+std::string ComplaintOf(const Ask& ask) {
+  try {
+    ask();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
 void ExpectHas(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << "'" << text << "' lacks '" << part << "'";
 }
@@ -71,18 +82,10 @@ TEST_F(StudyParameters, ThatAreTooSmallOrUnknownAreRefused) {
   EXPECT_EQ(p.Integer("folds", 1), 0);
   EXPECT_EQ(p.Integer("movers", 3, 2), 3);
   EXPECT_EQ(p.Integer("folds", 1, 0, 0), 0);
-  const auto complaint = [](const auto& ask) {
-    try {
-      ask();
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   EXPECT_NE(
-      complaint([&] { p.Integer("folds", 1, 1); }).find("line 1: expected folds of 1 or more"),
+      ComplaintOf([&] { p.Integer("folds", 1, 1); }).find("line 1: expected folds of 1 or more"),
       std::string::npos);
-  EXPECT_NE(complaint([&] {
+  EXPECT_NE(ComplaintOf([&] {
               p.Some("methods", {"none", "best"}, {});
             }).find("found 'bets'"),
             std::string::npos);
@@ -118,26 +121,19 @@ TEST_F(StudyParameters, ThatAreOutOfRangeAreRefusedByLine) {
   Parameters p = From(
       "hours = -1\nsplit = \"tset\"\nmotion = \"/nowhere\"\nmotions = []\ndepths = [5, 30]\n"
       "images = [10, 10.5]\n");
-  const auto complaint = [](const auto& ask) {
-    try {
-      ask();
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  ExpectHas(complaint([&] { p.Number("hours", 1, 0); }), "line 1: expected hours of 0 or more");
-  ExpectHas(complaint([&] { p.Number("hours", 1, 0, 720); }), "line 1: expected hours of 0 to 720");
-  ExpectHas(complaint([&] {
+  ExpectHas(ComplaintOf([&] { p.Number("hours", 1, 0); }), "line 1: expected hours of 0 or more");
+  ExpectHas(ComplaintOf([&] { p.Number("hours", 1, 0, 720); }),
+            "line 1: expected hours of 0 to 720");
+  ExpectHas(ComplaintOf([&] {
               p.OneOf("split", {"train", "test"}, "test");
             }),
             "line 2: expected split as one of train, test; found 'tset'");
-  ExpectHas(complaint([&] { p.Motion("motion", "authored"); }),
+  ExpectHas(ComplaintOf([&] { p.Motion("motion", "authored"); }),
             "line 3: expected motion as a folder or file of motion");
-  ExpectHas(complaint([&] { p.Motions("motions"); }), "line 4: expected motions as a list");
-  ExpectHas(complaint([&] { p.Integers("depths", {5}, 1, 24); }),
+  ExpectHas(ComplaintOf([&] { p.Motions("motions"); }), "line 4: expected motions as a list");
+  ExpectHas(ComplaintOf([&] { p.Integers("depths", {5}, 1, 24); }),
             "line 5: expected depths each of 1 to 24");
-  ExpectHas(complaint([&] { p.Integers("images", {5}, 1); }),
+  ExpectHas(ComplaintOf([&] { p.Integers("images", {5}, 1); }),
             "line 6: expected images as a list of whole numbers");
 }
 
