@@ -255,7 +255,7 @@ TEST(CInterface, OfSeatedPeopleTheUpperJointsAreWritten) {
   ossa_options options = PlainOptionsInC();
   options.seated = 1;
   ASSERT_EQ(WriteWalk(path, 1, options), OSSA_OK) << ossa_last_error();
-  const auto& joints = recon::ReadSkeletons(path).frames.at(0).bodies.at(0).joints;
+  const auto joints = recon::ReadSkeletons(path).frames.at(0).bodies.at(0).joints;
   EXPECT_TRUE(joints[recon::Joint::kHead]);
   EXPECT_FALSE(joints[recon::Joint::kFootLeft]);
 }
