@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "recon/orientation.h"
 #include "tests/recon/synthetic_motion.h"
@@ -102,7 +103,8 @@ TEST_P(Lag, ComesToAnEndAtAGapAndAtAnotherPerson) {
   for (size_t f = 10; f < 20; ++f) seen.frames[f].time_s += 0.5;
   seen.frames[5].bodies[0].id = 2;
   const auto made = SmoothSequence(seen, options_);
-  for (const size_t f : {0, 5, 9, 10, 19}) EXPECT_EQ(HandAt(made, f), HandAt(seen, f)) << f;
+  for (const size_t f : std::vector<size_t>{0, 5, 9, 10, 19})
+    EXPECT_EQ(HandAt(made, f), HandAt(seen, f)) << f;
   EXPECT_NE(HandAt(made, 2), HandAt(seen, 2));
 }
 

@@ -310,10 +310,10 @@ std::vector<Table> RunShum2013(ExperimentContext& context) {
 }
 
 Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
-  const auto [observer, clips, frames] = AskForShum2013(context);
-  const auto motions = StudyMotions(context, static_cast<size_t>(clips), frames);
-  Studio studio(context, observer);
-  note = ObserverNote(observer) + motions.note;
+  const auto asked = AskForShum2013(context);
+  const auto motions = StudyMotions(context, static_cast<size_t>(asked.clips), asked.frames);
+  Studio studio(context, asked.observer);
+  note = ObserverNote(asked.observer) + motions.note;
   const auto film = [&](Clutter clutter, const char* kind) {
     std::vector<RecordedPair> pairs;
     for (size_t i = 0; i < motions.clips.size(); ++i) {
@@ -324,7 +324,7 @@ Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
       StageOptions stage;
       stage.name = fmt::format("{} {}", motions.clips[i].name, kind);
       stage.clutter = clutter;
-      stage.frames = frames;
+      stage.frames = asked.frames;
       stage.seed = context.seed * 100 + i;
       pairs.push_back(studio.Record(motions.clips[i], stage));
     }
@@ -352,7 +352,7 @@ Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
   best = method("best", "best");
   best.options.prior = LoadPrior(context);
   best_of_truth = best;
-  KnowObserver(observer, &best);
+  KnowObserver(asked.observer, &best);
 }
 
 }  // namespace ossa::tools
