@@ -8,6 +8,10 @@ namespace {
 constexpr std::string_view kExport = "export it as BVH, TRC or C3D";
 constexpr std::string_view kJsonl =
     "write it as ossa's JSONL, metres (docs/files.md, 'Any other recording')";
+// Also what such a table is taken for whose first lines are not all sound.
+constexpr std::string_view kNamed =
+    "write it as ossa's JSONL, or as a table of lines FRAME JOINT x y z (docs/files.md, 'Tables of "
+    "named joints')";
 constexpr std::string_view kFlat =
     "they lie in the image, ossa reads joints in metres: track the depth images instead";
 
@@ -43,12 +47,12 @@ constexpr ForeignRecording kForeign[] = {
     {"2D key points", kFlat, false, {"nose_x", "nose_likelihood"}},
     {"MediaPipe's landmarks", kJsonl, false, {"left_eye_inner", ""}},
     {"MediaPipe's landmarks", kJsonl, false, {"landmarks", "visibility"}},
-    {"joints by name", kJsonl, false, {"spinebase", ""}},
-    {"joints by name", kJsonl, false, {"hipcenter", ""}},
-    {"joints by name", kJsonl, false, {"left_shoulder", "left_knee"}},
-    {"joints by name", kJsonl, false, {"leftshoulder", "leftknee"}},
-    {"joints by name", kJsonl, false, {"shoulderleft", "kneeleft"}},
-    {"joints by name", kJsonl, false, {"shoulder_left", "knee_left"}},
+    {"joints by name", kNamed, false, {"spinebase", ""}},
+    {"joints by name", kNamed, false, {"hipcenter", ""}},
+    {"joints by name", kNamed, false, {"left_shoulder", "left_knee"}},
+    {"joints by name", kNamed, false, {"leftshoulder", "leftknee"}},
+    {"joints by name", kNamed, false, {"shoulderleft", "kneeleft"}},
+    {"joints by name", kNamed, false, {"shoulder_left", "knee_left"}},
 };
 
 // Bytes beyond ASCII stay what they are in every locale.
