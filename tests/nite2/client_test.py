@@ -52,9 +52,19 @@ class Moment:
         self.mass = (user.centerOfMass.x, user.centerOfMass.y, user.centerOfMass.z)
 
 
-def play(clip):
+def play_until_most_arrive(clip, frames):
+    """The first of three plays of which more than half of the frames arrive, or the last: a busy machine loses some."""
+    for attempt in (1, 2, 3):
+        # An unplugged camera stays away: under another address it is another.
+        moments, followed = play(clip, f"?unplugs={attempt}")
+        if len(moments) > 0.5 * frames:
+            break
+    return moments, followed
+
+
+def play(clip, options):
     """All moments of the clip; whoever is new is tracked, and the hand that waves is followed."""
-    device = clients.camera(clip)
+    device = clients.camera(clip, options)
     users, hands = nite2.UserTracker(device), nite2.HandTracker(device)
     for gesture in (WAVE, CLICK, RAISE):
         hands.start_gesture_detection(gesture)
@@ -86,7 +96,7 @@ class WholeClip(unittest.TestCase):
         cls.addClassCleanup(clients.stop)
         clip = clients.make_clip()
         cls.truth = clients.truth_of(clip)
-        cls.moments, cls.followed = play(clip)
+        cls.moments, cls.followed = play_until_most_arrive(clip, len(cls.truth))
         cls.tracked = [m for m in cls.moments if m.skeletons.get(1) == 2]
 
     def between(self, begin_s, end_s):

@@ -24,11 +24,15 @@ def status_of(call, *arguments):
         return int(error.args[0])
 
 
+# A busy machine delivers few of a camera's frames: as many skeletons are waited for, at most so many seconds.
+ENOUGH, PATIENCE_S = 10, 60
+
+
 def track(device, seconds=1.5):
     """Frames of whoever is there, with a skeleton: (frame index, joints in NiTE's millimetres)."""
     tracker, seen = nite2.UserTracker(device), []
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
+    began = time.monotonic()
+    while (time_s := time.monotonic() - began) < seconds or (len(seen) < ENOUGH and time_s < PATIENCE_S):
         frame = tracker.read_frame()
         for user in frame.users:
             if user.is_new():
