@@ -8,10 +8,9 @@
 namespace ossa::recon {
 namespace {
 
-/// The standard stance, facing the camera, two metres away: what is said of a person of whom
-/// nothing was ever seen.
-Posture StanceInCamera(const BoneLengths& lengths) {
-  Placement placement{{0.0, 0.0, 2.0}, M_PI};
+/// The standard stance, two metres away: what is said of a person of whom nothing was ever seen.
+Posture StanceInCamera(const BoneLengths& lengths, double yaw_rad) {
+  Placement placement{{0.0, 0.0, 2.0}, yaw_rad};
   Posture stance = StandardStance();
   const Eigen::Vector3d root = stance[Joint::kHipCenter];
   for (auto& p : stance.position_m) p -= root;
@@ -104,6 +103,13 @@ BodySize Person::FreshSize() const {
   return size;
 }
 
+// At first somebody stands as they turn their shoulders or hips: who is seen from behind has no
+// left arm on the right.
+Posture Person::ModelOf(const Posture& seen, const JointWeights& present) const {
+  if (last_in_camera_) return *last_in_camera_;
+  return StanceInCamera(size_.lengths_m(), EstimatePlacement(seen, present, last_yaw_rad_).yaw_rad);
+}
+
 PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   PreparedPosture out;
   const std::optional<double> step_s = steps_.To(input.time_s);
@@ -125,8 +131,8 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
     if (!there) out.reliability[i] = 0.0;
   }
   if (!size_.locked() || started_) size_.Observe(input.observed.posture, out.reliability);
-  const Posture model = last_in_camera_ ? *last_in_camera_ : StanceInCamera(size_.lengths_m());
-  out.in_camera = Completed(input.observed.posture, out.present, model, &out.interpolated);
+  out.in_camera = Completed(input.observed.posture, out.present,
+                            ModelOf(input.observed.posture, out.present), &out.interpolated);
   JointWeights heading = out.reliability;
   for (size_t i = 0; i < kJointCount; ++i) heading[i] += 0.1 * out.present[i];
   out.placement = EstimatePlacement(out.in_camera, heading, last_yaw_rad_);

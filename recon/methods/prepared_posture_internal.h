@@ -45,6 +45,8 @@ class Person {
 
  private:
   BodySize FreshSize() const;
+  // What absent joints are completed from: the posture before, at first the standard stance.
+  Posture ModelOf(const Posture& seen, const JointWeights& present) const;
 
   ReliabilityEstimator estimator_;
   std::optional<BoneLengths> bones_m_;

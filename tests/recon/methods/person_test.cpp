@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "recon/methods/prepared_posture_internal.h"
@@ -21,6 +22,33 @@ TEST(Person, KeepsTheReachOfAHandWhoseArmIsHidden) {
     // The person is the standard one scaled: bones are known from the first frame exactly.
     EXPECT_LT((prepared.normalised.position_m[7] - now.position_m[7]).norm(), 1e-3) << scale;
     EXPECT_EQ(prepared.reliability[5], 0.0);
+  }
+}
+
+// What is not seen of a new person is completed alike whichever way they face.
+TEST(Person, IsCompletedInTheFirstFrameAsTheyAreTurned) {
+  constexpr std::array kUnseen = {Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft,
+                                  Joint::kHipLeft,   Joint::kHipRight,  Joint::kHipCenter};
+  const Posture facing = test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1));
+  const auto completed = [&](double turn_rad) {
+    TrackedPosture seen = test::AllTracked(facing);
+    const Eigen::AngleAxisd turn(turn_rad, Eigen::Vector3d::UnitY());
+    for (Eigen::Vector3d& p : seen.posture.position_m) {
+      p = facing[Joint::kHipCenter] + turn * (p - facing[Joint::kHipCenter]);
+    }
+    for (const Joint joint : kUnseen) seen.state[Index(joint)] = TrackingState::kNotTracked;
+    Posture whole = Person().Prepare({seen, 0.0, nullptr}).in_camera;
+    for (Eigen::Vector3d& p : whole.position_m) {
+      p = facing[Joint::kHipCenter] + turn.inverse() * (p - facing[Joint::kHipCenter]);
+    }
+    return whole;
+  };
+  const Posture wanted = completed(0.0);
+  for (const double turn_rad : {0.5, 1.5, 2.5, 3.14, 4.5, 5.5}) {
+    const Posture whole = completed(turn_rad);
+    for (const Joint joint : kUnseen) {
+      EXPECT_LT((whole[joint] - wanted[joint]).norm(), 0.02) << NameOf(joint) << " at " << turn_rad;
+    }
   }
 }
 
