@@ -137,26 +137,36 @@ void TreeGrower::SortSamples(const GrowingTree& tree) {
   }
 }
 
+// Nothing where one class is left to tell apart.
+std::optional<TreeGrower::Task> TreeGrower::MakeTask(const GrowingTree& tree, size_t node,
+                                                     bool by_context) const {
+  const uint32_t* counts = frontier_counts_.data() + (node - tree.frontier_begin) * class_count_;
+  const auto absent = static_cast<size_t>(std::count(counts, counts + class_count_, 0U));
+  if (!by_context && class_count_ - absent < 2) return std::nullopt;
+  Task task;
+  task.node = node;
+  task.pixels = std::accumulate(counts, counts + class_count_, uint64_t{0});
+  task.by_context = by_context;
+  const size_t labels = by_context ? context_count_ : class_count_;
+  for (size_t l = 0; l < labels; ++l) {
+    const bool used = by_context || counts[l] > 0;
+    task.histogram_row.push_back(used ? static_cast<int32_t>(task.rows++) : -1);
+  }
+  return task;
+}
+
 std::vector<TreeGrower::Task> TreeGrower::MakeTasks(const GrowingTree& tree) const {
   std::vector<Task> tasks;
-  for (size_t f = 0; f < tree.nodes.size() - tree.frontier_begin; ++f) {
-    const uint32_t* counts = frontier_counts_.data() + f * class_count_;
-    Task task;
-    task.node = tree.frontier_begin + f;
-    task.pixels = std::accumulate(counts, counts + class_count_, uint64_t{0});
-    const auto present =
-        class_count_ - static_cast<size_t>(std::count(counts, counts + class_count_, 0U));
-    if (task.pixels < static_cast<uint64_t>(options_.min_node_pixels)) continue;
-    Random random(MixSeed(options_.seed, 0xc0, static_cast<uint64_t>(tree_number_), task.node));
-    task.by_context =
+  for (size_t node = tree.frontier_begin; node < tree.nodes.size(); ++node) {
+    const uint32_t* counts = frontier_counts_.data() + (node - tree.frontier_begin) * class_count_;
+    const uint64_t pixels = std::accumulate(counts, counts + class_count_, uint64_t{0});
+    if (pixels < static_cast<uint64_t>(options_.min_node_pixels)) continue;
+    Random random(MixSeed(options_.seed, 0xc0, static_cast<uint64_t>(tree_number_), node));
+    const bool by_context =
         context_count_ > 1 && tree.level < kContextLevels && random.Unit() < options_.context_share;
-    if (!task.by_context && present < 2) continue;
-    const size_t labels = task.by_context ? context_count_ : class_count_;
-    for (size_t l = 0; l < labels; ++l) {
-      const bool used = task.by_context || counts[l] > 0;
-      task.histogram_row.push_back(used ? static_cast<int32_t>(task.rows++) : -1);
+    if (std::optional<Task> task = MakeTask(tree, node, by_context)) {
+      tasks.push_back(std::move(*task));
     }
-    tasks.push_back(std::move(task));
   }
   return tasks;
 }
@@ -286,14 +296,40 @@ void TreeGrower::ApplySplit(const Split& split, Task* task) {
   task->set = {};
 }
 
+bool TreeGrower::Gains(const Task& task) const {
+  return task.split.bin >= 0 && task.split.gain_bits >= options_.min_gain_bits;
+}
+
+void TreeGrower::SplitTasks(const GrowingTree& tree, std::vector<Task>* tasks) {
+  const bool in_memory = parts_.part_count() <= 1 && reducer_.size() == 1;
+  (this->*(in_memory ? &TreeGrower::SplitInMemory : &TreeGrower::SplitInParts))(tree, tasks);
+  if (StopWanted()) throw TrainInterrupted("interrupted");
+}
+
+// A node whose split by context gains nothing, because no feature or every node above tells the
+// contexts, is split by class instead: it may hold most of all pixels and must not become a leaf.
+void TreeGrower::RetryByClass(const GrowingTree& tree, std::vector<Task>* tasks) {
+  std::vector<Task> by_class;
+  std::vector<Task*> failed;
+  for (Task& task : *tasks) {
+    if (!task.by_context || Gains(task)) continue;
+    if (std::optional<Task> other = MakeTask(tree, task.node, false)) {
+      by_class.push_back(std::move(*other));
+      failed.push_back(&task);
+    }
+  }
+  if (by_class.empty()) return;
+  SplitTasks(tree, &by_class);
+  for (size_t i = 0; i < failed.size(); ++i) *failed[i] = std::move(by_class[i]);
+}
+
 LevelReport TreeGrower::GrowLevel(GrowingTree* tree) {
   const Stopwatch watch;
   const uint64_t evaluations_before = evaluations_;
   SortSamples(*tree);
   std::vector<Task> tasks = MakeTasks(*tree);
-  const bool in_memory = parts_.part_count() <= 1 && reducer_.size() == 1;
-  (this->*(in_memory ? &TreeGrower::SplitInMemory : &TreeGrower::SplitInParts))(*tree, &tasks);
-  if (StopWanted()) throw TrainInterrupted("interrupted");
+  SplitTasks(*tree, &tasks);
+  RetryByClass(*tree, &tasks);
   LevelReport report;
   report.frontier = tasks.size();
   double weighted_gain = 0.0;
@@ -302,7 +338,7 @@ LevelReport TreeGrower::GrowLevel(GrowingTree* tree) {
   for (const Task& task : tasks) {
     pixels += task.pixels;
     weighted_gain += task.split.gain_bits * static_cast<double>(task.pixels);
-    if (task.split.bin < 0 || task.split.gain_bits < options_.min_gain_bits) continue;
+    if (!Gains(task)) continue;
     Node node = task.made;
     node.left = static_cast<int32_t>(tree->nodes.size());
     tree->nodes[task.node] = node;

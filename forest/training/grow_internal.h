@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "forest/training/images_internal.h"
@@ -62,6 +63,7 @@ class TreeGrower {
   void DrawSamples();
   void SortSamples(const GrowingTree& tree);
   void CountFrontier(const GrowingTree& tree);
+  std::optional<Task> MakeTask(const GrowingTree& tree, size_t node, bool by_context) const;
   std::vector<Task> MakeTasks(const GrowingTree& tree) const;
   void Collect(const Task& task, const GrowingTree& tree, const Part& part,
                const std::vector<StoredImage>& images, std::vector<SampleRef>* refs,
@@ -69,6 +71,9 @@ class TreeGrower {
   void SplitInMemory(const GrowingTree& tree, std::vector<Task>* tasks);
   void SplitInParts(const GrowingTree& tree, std::vector<Task>* tasks);
   void SplitGroup(const GrowingTree& tree, std::span<Task> group);
+  void SplitTasks(const GrowingTree& tree, std::vector<Task>* tasks);
+  void RetryByClass(const GrowingTree& tree, std::vector<Task>* tasks);
+  bool Gains(const Task& task) const;
   static void ApplySplit(const Split& split, Task* task);
   void Route(const GrowingTree& tree);
   bool StopWanted() const { return options_.stop && options_.stop(); }

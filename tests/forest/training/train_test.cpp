@@ -56,6 +56,16 @@ TEST(Train, TellsFrontFromBackByTheWholeFigure) {
   EXPECT_GE(right, 57);  // the nose is 2 to 6 pixels; in 5 % of views a hand's edge looks like it
 }
 
+// A split by context gains nothing where all images have the same: the node is split by class, not
+// left as a leaf of all its pixels.
+TEST(Train, SplitsByClassWhereContextsGainNothing) {
+  const test::ChangedFigures figures([](TrainingImage& image) { image.context = 0; });
+  TrainOptions options = QuickOptions();
+  options.context_share = 1.0;
+  const ForestModel model = Train(figures, BallVocabulary(), options);
+  for (const Tree& tree : model.data().trees) EXPECT_GT(tree.leaf_count(), 8U);
+}
+
 TEST(Train, ProposesCentresOfBalls) {
   const BallFigures unseen(20, 55);
   int near = 0;
