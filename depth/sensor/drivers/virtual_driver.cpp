@@ -30,7 +30,7 @@ constexpr int kMaxValue = 65535;
 class VirtualCamera {
  public:
   VirtualCamera(const std::string& uri, const VirtualDeviceOptions& options)
-      : options_(options), source_(OpenSource(options.path)), camera_(source_->camera()) {
+      : options_(options), source_(Open()), camera_(source_->camera()) {
     CopyName(uri, info_.uri);
     CopyName("ossa", info_.vendor);
     CopyName("virtual depth camera", info_.name);
@@ -61,7 +61,7 @@ class VirtualCamera {
         if (result.status == ReadStatus::kTimeout) continue;
         if (!options_.loop || restarted) return std::nullopt;
         restarted = true;
-        source_ = OpenSource(options_.path);
+        source_ = Open();
         first_time_s_.reset();
         loop_began_ = next_due_;
       } catch (const InputError&) {
@@ -85,6 +85,10 @@ class VirtualCamera {
   int unplugs_left = 0;
 
  private:
+  std::unique_ptr<FrameSource> Open() const {
+    return OpenSource(options_.path, {.mirrored = options_.mirrored});
+  }
+
   void CheckSize(const Camera& camera) const {
     if (camera.width != camera_.width || camera.height != camera_.height) {
       throw InputError(options_.path + ": a frame of another size than the first");

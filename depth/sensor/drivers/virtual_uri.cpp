@@ -62,6 +62,8 @@ void SetOption(const std::string& uri, const std::string& key, const std::string
     options->loop = number(0, 1) != 0;
   } else if (key == "mirror") {
     options->mirror = number(0, 1) != 0;
+  } else if (key == "mirrored") {
+    options->mirrored = number(0, 1) != 0;
   } else if (key == "speed") {
     options->speed = number(kTiny, kFastest);
   } else if (key == "fps") {
@@ -75,8 +77,8 @@ void SetOption(const std::string& uri, const std::string& key, const std::string
   } else if (key == "stall_after") {
     options->stall_after = static_cast<int>(number(0, kMostFrames));
   } else {
-    throw InputError(uri + ": expected loop, speed, fps, mirror, unplug_after, replug_after_ms, " +
-                     "unplugs or stall_after, found '" + key + "'");
+    throw InputError(uri + ": expected loop, speed, fps, mirror, mirrored, unplug_after, " +
+                     "replug_after_ms, unplugs or stall_after, found '" + key + "'");
   }
 }
 

@@ -13,6 +13,7 @@ struct VirtualDeviceOptions {
   double speed = 1.0;  // speed=2: twice as fast as recorded; > 0; factor; by definition
   std::optional<double> fps;  // fps=15: this rate whatever the recording's times; > 0
   bool mirror = false;        // mirror=1: the device mirrors until told not to, as real ones do
+  bool mirrored = false;      // mirrored=1: PATH's images are as a mirror shows them
   // Simulated trouble, for tests: after so many frames delivered the device is unplugged ...
   std::optional<int> unplug_after;            // unplug_after=30; frames, > 0
   std::chrono::milliseconds replug_after{0};  // replug_after_ms=200; 0: never comes back

@@ -135,6 +135,21 @@ TEST(Device, WhoseImagesAreMirroredShowsThemAsTheSensorLooks) {
   EXPECT_EQ(NumberOf(frame, 10), -1);
 }
 
+// Other OpenNI2 programs have no option of ours: the URI is all that they can say. The second frame
+// is of the second time round.
+TEST(Device, WhoseUriSaysThatItsImagesAreMirroredTurnsThemBack) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 1);
+  WriteCameraJson(folder / "camera.json", {32, 24, 30, 30, 14, 11.5});
+  const auto source = OpenSource(Uri(folder, "?mirrored=1&loop=1"));
+  EXPECT_EQ(source->camera().cx, 17.0);
+  for (int i = 0; i < 2; ++i) {
+    const DepthFrame frame = NextFrame(*source).frame;
+    EXPECT_EQ(NumberOf(Unmirrored(frame), 1), 0);
+    EXPECT_EQ(NumberOf(frame, 1), -1);
+  }
+}
+
 TEST(Device, ThatMirrorsByDefaultIsToldNotTo) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);

@@ -9,11 +9,12 @@ namespace {
 
 TEST(VirtualUri, IsAPathAndOptions) {
   const auto options = ParseVirtualUri(
-      "ossa:///data/a%3Fb%25c?loop=1&speed=2.5&fps=15&mirror=1&unplug_after=30&replug_after_ms=200"
-      "&unplugs=3&stall_after=99");
+      "ossa:///data/a%3Fb%25c?loop=1&speed=2.5&fps=15&mirror=1&mirrored=1&unplug_after=30"
+      "&replug_after_ms=200&unplugs=3&stall_after=99");
   EXPECT_EQ(options.path, "/data/a?b%c");
   EXPECT_TRUE(options.loop);
   EXPECT_TRUE(options.mirror);
+  EXPECT_TRUE(options.mirrored);
   EXPECT_EQ(options.speed, 2.5);
   EXPECT_EQ(options.fps, 15);
   EXPECT_EQ(options.unplug_after, 30);
@@ -21,6 +22,7 @@ TEST(VirtualUri, IsAPathAndOptions) {
   EXPECT_EQ(options.unplugs, 3);
   EXPECT_EQ(options.stall_after, 99);
   EXPECT_FALSE(ParseVirtualUri("ossa://relative/path").loop);
+  EXPECT_FALSE(ParseVirtualUri("ossa://x?mirror=1").mirrored);
 }
 
 TEST(VirtualUri, AnythingElseIsNamed) {
