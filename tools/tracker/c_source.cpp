@@ -1,6 +1,8 @@
 // The sources of depth images behind ossa_c.h.
+#include <algorithm>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -23,6 +25,7 @@ struct ossa_source {
   ossa::depth::DepthFrame last;  // owns what the caller reads
   std::deque<Note> notes;        // not taken yet
   std::string taken_note;        // owns what the caller reads
+  std::function<bool()> keep_waiting;
   int64_t dropped = 0;
 };
 
@@ -43,10 +46,18 @@ void RequireInRange(double value, const char* member) {
                               ": expected 0 to 1e6, found " + std::to_string(value));
 }
 
+// Of options that name nobody to ask: goes on.
+std::function<bool()> KeepWaitingOf(const ossa_source_options& options) {
+  if (options.keep_waiting == nullptr) return [] { return true; };
+  return [ask = options.keep_waiting, user = options.keep_waiting_user] { return ask(user) != 0; };
+}
+
 ossa::depth::SourceOptions OptionsFrom(const ossa_source_options* given) {
   ossa::depth::SourceOptions options;
+  options.keep_waiting = KeepWaitingOf({});
   if (given == nullptr) return options;
   const auto c = ReadStruct(*given);
+  options.keep_waiting = KeepWaitingOf(c);
   if (c.camera != nullptr) options.camera = ossa::depth::ParseCamera(c.camera);
   RequireInRange(c.depth_scale, "depth_scale");
   RequireInRange(c.fps, "fps");
@@ -83,7 +94,7 @@ void FindCamera(const std::string& name, ossa::depth::SourceOptions& options, No
   silent.note = {};
   try {
     const auto finding = ossa::tracker::FindNarrowerCamera(
-        name, silent, [] { return ossa::tracker::TrackerOptions(); }, [] { return true; });
+        name, silent, [] { return ossa::tracker::TrackerOptions(); }, options.keep_waiting);
     if (!finding) return;
     options.camera = ossa::depth::ParseCamera(ossa::tracker::CameraText(finding->found));
     notes.push_back(
@@ -101,8 +112,25 @@ std::unique_ptr<ossa_source> Opened(const std::string& name, const ossa_source_o
   if (given != nullptr && ReadStruct(*given).find_camera != 0) {
     FindCamera(name, options, source->notes);
   }
+  source->keep_waiting = options.keep_waiting;
   source->frames = ossa::depth::OpenSource(name, options);
   return source;
+}
+
+// In steps, between which the caller may end the wait.
+ossa::depth::ReadResult Read(ossa_source& source, milliseconds timeout) {
+  using ossa::depth::ReadStatus;
+  constexpr milliseconds kStep{100};  // as while a device is waited for
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  for (;;) {
+    const auto left = deadline - std::chrono::steady_clock::now();
+    const auto step = std::clamp(duration_cast<milliseconds>(left), milliseconds{0}, kStep);
+    auto read = source.frames->Read(step);
+    source.dropped += read.dropped;
+    const bool is_waiting =
+        read.status == ReadStatus::kTimeout || read.status == ReadStatus::kDisconnected;
+    if (!is_waiting || left <= kStep || !source.keep_waiting()) return read;
+  }
 }
 
 ossa_status StatusOf(ossa::depth::ReadStatus status) {
@@ -132,8 +160,7 @@ ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth
     ossa::tracker::RequireNotNull(source, "ossa_source_read", "a source");
     ossa::tracker::RequireNotNull(image, "ossa_source_read", "an image");
     ossa::tracker::CheckSize(*image);  // before a frame is taken
-    auto read = source->frames->Read(milliseconds(std::max(0, timeout_ms)));
-    source->dropped += read.dropped;
+    auto read = Read(*source, milliseconds(std::max(0, timeout_ms)));
     if (read.status == ossa::depth::ReadStatus::kFrame) {
       source->last = std::move(read.frame);
       ossa::tracker::FillStruct(ImageFrom(source->last), image);

@@ -22,8 +22,9 @@ struct StructFacts<ossa_depth_image> {
 template <>
 struct StructFacts<ossa_source_options> {
   static constexpr const char* kName = "ossa_source_options";
-  static constexpr std::array<size_t, 1> kEarlier = {offsetof(ossa_source_options, depth_format)};
-  static constexpr size_t kEnd = offsetof(ossa_source_options, mirrored) + sizeof(int32_t);
+  static constexpr std::array<size_t, 2> kEarlier = {offsetof(ossa_source_options, depth_format),
+                                                     offsetof(ossa_source_options, keep_waiting)};
+  static constexpr size_t kEnd = offsetof(ossa_source_options, keep_waiting_user) + sizeof(void*);
 };
 
 template <>

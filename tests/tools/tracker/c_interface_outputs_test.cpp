@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +18,7 @@
 #include "depth/image/camera_presets.h"
 #include "depth/image/depth_png.h"
 #include "recon/files/skeleton_io.h"
+#include "tests/support/depth_examples.h"
 #include "tests/support/full_disk.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/walk_in_c.h"
@@ -426,6 +430,65 @@ TEST(CInterface, MirroredImagesOfASourceComeAsTheSensorLooks) {
             std::vector<uint16_t>(row.rbegin(), row.rend()));
   EXPECT_EQ(image.cx, 2.0);
   ossa_source_close(source);
+}
+
+// What a program's other thread sets when its user has enough of waiting.
+struct Impatience {
+  std::atomic<bool> has_enough = false;
+  std::atomic<int> asked = 0;
+
+  ossa_source_options Options() {
+    auto options = Sized<ossa_source_options>();
+    options.keep_waiting_user = this;
+    options.keep_waiting = [](void* user) -> int32_t {
+      auto* self = static_cast<Impatience*>(user);
+      ++self->asked;
+      return self->has_enough ? 0 : 1;
+    };
+    return options;
+  }
+  std::thread SetAfter(int questions) {
+    return std::thread([this, questions] {
+      while (asked < questions) std::this_thread::yield();
+      has_enough = true;
+    });
+  }
+};
+
+TEST(CInterface, AnotherThreadEndsTheWaitForADevice) {
+  Impatience user;
+  ossa_source_options options = user.Options();
+  options.wait_s = 3600.0;
+  std::thread other = user.SetAfter(2);
+  EXPECT_EQ(ossa_source_open("openni:ossa:///nowhere", &options), nullptr);
+  other.join();
+  EXPECT_TRUE(Says("openni:ossa:///nowhere")) << ossa_last_error();
+}
+
+TEST(CInterface, AnotherThreadEndsTheWaitForAFrame) {
+  const test::TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 1);
+  const std::string silent = "openni:ossa://" + folder.path().string() + "?stall_after=1";
+  Impatience user;
+  const ossa_source_options options = user.Options();
+  ossa_source* source = ossa_source_open(silent.c_str(), &options);
+  ASSERT_NE(source, nullptr) << ossa_last_error();
+  auto image = Sized<ossa_depth_image>();
+  constexpr int32_t kAnHour_ms = 3'600'000;
+  ASSERT_EQ(ossa_source_read(source, kAnHour_ms, &image), OSSA_OK) << ossa_last_error();
+  std::thread other = user.SetAfter(user.asked + 2);
+  EXPECT_EQ(ossa_source_read(source, kAnHour_ms, &image), OSSA_TIMEOUT) << ossa_last_error();
+  other.join();
+  ossa_source_close(source);
+}
+
+// Compiled before keep_waiting: what lies behind its struct is no function.
+TEST(CInterface, AnOlderProgramsSourceOptionsAreReadAsFarAsTheyGo) {
+  auto options = Impatience().Options();
+  options.struct_size = offsetof(ossa_source_options, keep_waiting);
+  options.keep_waiting = [](void*) -> int32_t { std::abort(); };
+  EXPECT_EQ(ossa_source_open("openni:ossa:///nowhere", &options), nullptr);
+  EXPECT_TRUE(Says("nowhere")) << ossa_last_error();
 }
 
 // Each made here, used in a thread of its own and destroyed in another; all see the same.

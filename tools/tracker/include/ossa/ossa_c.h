@@ -101,6 +101,12 @@ typedef struct {
                                does: takes seconds; a note says what was found */
   int32_t mirrored;         /* not 0: its images are as a mirror shows them, and its own camera, or
                                `camera`'s numbers, is of these; both come as the sensor looks */
+  /* Asked about ten times a second, in the thread that waits, while a call waits for a device
+     (wait_s), looks for a camera (find_camera) or waits for a frame (ossa_source_read). 0 ends the
+     wait: what opens fails, what reads times out. By what it looks at, another thread ends a wait.
+     NULL: none ends early. */
+  int32_t (*keep_waiting)(void* keep_waiting_user);
+  void* keep_waiting_user;
 } ossa_source_options;
 
 typedef struct ossa_source ossa_source;
