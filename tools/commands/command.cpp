@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -49,18 +50,23 @@ void CheckValues(const CLI::App& app) {
   }
 }
 
-// The option that was most likely meant by the first word that is none.
+// The first word that looks like an option and is none; "" where there is none.
+std::string FindUnknownOption(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining();
+  const auto found = std::find_if(words.begin(), words.end(),
+                                  [](const std::string& word) { return word.starts_with('-'); });
+  return found == words.end() ? "" : *found;
+}
+
+// The option that was most likely meant by that word.
 std::string MeantOption(const CLI::App& app) {
+  const std::string word = FindUnknownOption(app);
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  for (const std::string& word : app.remaining()) {
-    if (!word.starts_with('-')) continue;
-    const std::string meant = ClosestWord(word.substr(0, word.find('=')), names);
-    return meant.empty() ? "" : fmt::format("is {} meant? ", meant);
-  }
-  return {};
+  const std::string meant = word.empty() ? "" : ClosestWord(word.substr(0, word.find('=')), names);
+  return meant.empty() ? "" : fmt::format("is {} meant? ", meant);
 }
 
 void AddExamples(CLI::App& app, std::string_view command) {
@@ -88,6 +94,12 @@ void Parse(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::ExtrasError& error) {
     throw UsageError(
         fmt::format("{} ({}see 'ossa {} --help')", error.what(), MeantOption(app), command));
+  } catch (const CLI::RequiredError& error) {
+    // What is missing may be there under a name that was mistyped.
+    const std::string unknown = FindUnknownOption(app);
+    throw UsageError(fmt::format("{}{} ({}see 'ossa {} --help')", error.what(),
+                                 unknown.empty() ? "" : ", and " + unknown + " was not expected",
+                                 MeantOption(app), command));
   } catch (const CLI::ParseError& error) {
     throw UsageError(fmt::format("{} (see 'ossa {} --help')", error.what(), command));
   }

@@ -134,6 +134,12 @@ class Suggestions(unittest.TestCase):
             self.assertEqual(result.stderr.count("\n"), 1)
         self.assertNotIn("meant", run("track", "x", "--xylophone").stderr)
 
+    def test_a_mistyped_option_that_is_required(self):
+        said = run("record", "x", "--ot", "x.oni")
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("--out is required, and --ot was not expected (is --out meant?", said.stderr)
+        self.assertIn("--out is required (see", run("record", "x").stderr)
+
 
 class Colours(unittest.TestCase):
     def test_only_on_a_terminal_that_wants_them(self):
