@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -145,6 +146,16 @@ void CheckTimes(const SkeletonSequence& sequence, const std::string& name) {
                   name, still, frames.size()));
 }
 
+/// Whether frames are where no count of such steps puts them: their file says when they were.
+bool StatesOtherTimes(const SkeletonSequence& sequence, double frame_s) {
+  constexpr double kOff = 0.01;  // steps, by hand: of rounded times
+  const auto& frames = sequence.frames;
+  return std::any_of(frames.begin(), frames.end(), [&](const SkeletonFrame& frame) {
+    const double steps = (frame.time_s - frames.front().time_s) / frame_s;
+    return std::abs(steps - std::round(steps)) > kOff;
+  });
+}
+
 SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   const SkeletonFormat& format =
       options.format.empty() ? DetectFormat(input.stream, input.name) : FormatNamed(options.format);
@@ -159,6 +170,10 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   CheckTimes(sequence, input.name);
   if (const std::string unlikely = DescribeUnlikelyUnit(sequence); !unlikely.empty()) {
     sequence.warnings.push_back(input.name + ": " + unlikely);
+  }
+  if (options.frame_s > 0 && StatesOtherTimes(sequence, options.frame_s)) {
+    sequence.warnings.push_back(
+        input.name + ": its frames have times of its own: the frame rate given is not used");
   }
   if (IsKinectV2(format.name, input.columns)) sequence.sensor = kKinectV2;
   if (AreRefinedJoints(sequence)) sequence.sensor = kRefinedJoints;

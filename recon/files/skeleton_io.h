@@ -18,7 +18,8 @@ struct SkeletonReadOptions {
   std::string columns;
   /// One of SkeletonFormats(); "": recognised by content.
   std::string format;
-  /// Time step of formats that carry no time, seconds; 0: the format's own usual rate.
+  /// Time step of formats that carry no time, seconds; 0: the format's own usual rate. A file that
+  /// states other times keeps them, and has a warning.
   double frame_s = 0.0;
   /// Mapping file of unknown names of joints or points, for files in which they occur: lines
   /// `ElbowLeft = name` (docs/files.md); "": none.

@@ -9,10 +9,10 @@
 #include "depth/base/error.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/reading_bar.h"
+#include "tools/commands/skeleton_reading_options.h"
 #include "tools/commands/warnings.h"
 #include "tools/experiments/compare/comparison.h"
 #include "tools/experiments/experiment.h"
@@ -112,7 +112,7 @@ CLI::Option* DeclareOptions(CLI::App& app, CompareArguments& a) {
   AddReadingOptions(app, a.options);
   app.add_option("--seed", a.options.seed, "random seed of the bootstrap")->capture_default_str();
   app.add_flag("--quiet", a.quiet, "no tables on stdout");
-  AddMappingOption(app, a.options.reading.mapping_file, false);
+  AddSkeletonReadingOptions(app, a.options.reading);
   app.footer(Formats() + "\n" + MappingHelp());
   return json;
 }

@@ -10,9 +10,9 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/fuse_options.h"
-#include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/reading_bar.h"
+#include "tools/commands/skeleton_reading_options.h"
 #include "tools/commands/warnings.h"
 
 namespace ossa::commands {
@@ -36,7 +36,7 @@ void Declare(CLI::App& app, Arguments& a) {
   a.fuse.AddTo(app);
   a.write.AddTo(app);
   a.write.AddSurfaceTo(app);
-  AddMappingOption(app, a.read.mapping_file, false);
+  AddSkeletonReadingOptions(app, a.read);
   app.add_flag("--quiet", a.quiet, "no progress, no report of camera poses");
   app.footer(MappingHelp());
 }

@@ -12,9 +12,9 @@
 #include "recon/models/learned_models.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/mapping_option.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/reading_bar.h"
+#include "tools/commands/skeleton_reading_options.h"
 #include "tools/commands/warnings.h"
 #include "tools/learning/pair_recordings.h"
 
@@ -75,7 +75,8 @@ void Declare(CLI::App& app, LearnArguments& a) {
   app.add_flag("--correction-only", a.correction_only,
                "learn only what best uses: fast, a quarter of a megabyte");
   app.add_flag("--quiet", a.quiet, "no progress");
-  AddMappingOption(app, a.reading.mapping_file);
+  AddSkeletonReadingOptions(app, a.reading);
+  app.footer(MappingHelp());
 }
 
 void Check(const LearnArguments& a) {

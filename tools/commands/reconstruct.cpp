@@ -21,12 +21,12 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/floor_option.h"
-#include "tools/commands/mapping_option.h"
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
 #include "tools/commands/reading_bar.h"
+#include "tools/commands/skeleton_reading_options.h"
 #include "tools/commands/warnings.h"
 #include "tools/tracker/dynamics.h"
 #include "tools/tracker/mechanics.h"
@@ -218,7 +218,7 @@ void DeclareOptions(CLI::App& app, ReconstructArguments& a) {
   AddLagOption(app, a);
   AddMechanicsOptions(app, a.mechanics);
   AddDynamicsOptions(app, a);
-  AddMappingOption(app, a.read.mapping_file, false);
+  AddSkeletonReadingOptions(app, a.read);
   app.add_flag("--quiet", a.quiet, "no progress");
   app.footer(std::string("Options that the method does not read are refused; files that it does "
                          "not read cause a warning.\n") +

@@ -49,6 +49,33 @@ class ForeignSkeletons : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
+// A table whose frames are counted, and a TRC, which says when they were.
+TEST_F(ForeignSkeletons, WithoutTimesAreAtTheRateThatIsSaid) {
+  std::ofstream(folder_ / "table.txt") << "0 Head 0 0.8 2\n0 HipCenter 0 0 2\n"
+                                          "1 Head 0 0.8 2\n1 HipCenter 0 0 2\n";
+  const auto read_at_50_hz = [&](const std::string& file) {
+    const auto run =
+        test::RunOssa({"reconstruct", folder_ / file, "--out", folder_ / "y.jsonl", "--method",
+                       "none", "--fps", "50", "--mapping", folder_ / "names.txt"});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return std::pair{recon::ReadSkeletons(folder_ / "y.jsonl").frames.at(1).time_s, run.err};
+  };
+  const auto [counted_s, said] = read_at_50_hz("table.txt");
+  EXPECT_NEAR(counted_s, 0.02, 1e-6) << said;
+  EXPECT_EQ(said.find("times of its own"), std::string::npos) << said;
+  const auto [stated_s, warning] = read_at_50_hz("x.trc");
+  EXPECT_NEAR(stated_s, 1.0 / 30.0, 1e-5);
+  EXPECT_NE(warning.find("x.trc: its frames have times of its own"), std::string::npos) << warning;
+}
+
+TEST_F(ForeignSkeletons, EveryCommandThatReadsThemTakesTheirRate) {
+  for (const char* command : {"compare", "reconstruct", "fuse", "learn", "view"}) {
+    const auto run = test::RunOssa({command, "--help"});
+    EXPECT_NE(run.out.find("--fps FLOAT"), std::string::npos) << command;
+    EXPECT_EQ(test::RunOssa({command, "x", "--fps", "0"}).exit_status, 2) << command;
+  }
+}
+
 TEST_F(ForeignSkeletons, WithoutKnownNamesAreRefusedInALineThatListsThem) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"compare", folder_ / "x.bvh", folder_ / "x.trc"},
