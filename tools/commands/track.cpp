@@ -246,11 +246,8 @@ InputError InterruptedEarly(const TrackOptions& options, const Run& run) {
 }
 
 /// What is known of the people before the first frame.
-void ReadPeople(TrackOptions& options) {
-  for (size_t i = 0; i < options.people.size(); ++i) {
-    options.tracker.shapes[static_cast<int>(i) + 1] =
-        recon::PersonShape::Load(options.people[i], *options.tracker.models->surface);
-  }
+void KnowPeople(TrackOptions& options) {
+  options.tracker.shapes = ReadPeople(options.fit, *options.tracker.models);
   if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
 }
 
@@ -302,7 +299,7 @@ int Track(int argc, char** argv) {
   if (!options.more_sources.empty()) return TrackSeveral(options);
   FindCamera(
       options.source, [&] { return options.tracker; }, options.quiet);
-  ReadPeople(options);
+  KnowPeople(options);
   tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
   const auto source = OpenSource(options.source, options.quiet);
   FindUpright(tracker, *source, options.source, options.quiet);

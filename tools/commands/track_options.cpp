@@ -16,17 +16,10 @@
 namespace ossa::commands {
 namespace {
 
-void AddFitOptions(CLI::App& app, TrackOptions& options) {
+void AddBodyOptions(CLI::App& app, TrackOptions& options) {
   app.add_option("--surface", options.files.surface,
                  ".ossasurface of 'ossa surface', for --fit (default: the shipped one)");
-  app.add_option("--fit", options.fit,
-                 "fit a body's surface to the depth image, starting from the refined joints: on or "
-                 "off (default: on if there are refined joints)")
-      ->check(CLI::IsMember({"on", "off"}));
-  app.add_option("--person", options.people,
-                 "FILE.ossaperson of --save-person: body shape of the first person who comes into "
-                 "view (id 1); given again, of the next one")
-      ->allow_extra_args(false);
+  AddFitOptions(app, options.fit);
   app.add_option("--save-person", options.save_person,
                  "write FILE.ossaperson at the end: body shape of the person who was fitted in "
                  "most frames, updated from --person");
@@ -71,53 +64,6 @@ void NeedRefinement(tracker::ModelFiles& files) {
         "--posture refined: expected --refinement FILE.ossarefine of 'ossa refine' with it");
   }
   if (files.refinement.empty()) files.refinement = tracker::ShippedFile(shipped).string();
-}
-
-// Whether there are joints that a surface fit starts from: refined ones, or those of the forest for
-// ceilings.
-bool HasJointsToFit(const TrackOptions& options) {
-  const tracker::ModelFiles& files = options.files;
-  const bool has_shipped = tracker::FindShippedRefinement(files) != nullptr;
-  const bool is_ceilings_forest = has_shipped && !tracker::IsShippedForest(files);
-  if (options.mount == "ceiling" || (options.mount == "auto" && is_ceilings_forest)) return true;
-  if (!files.refinement.empty()) return files.refinement != "none";
-  return has_shipped && RequireMethodInfo(options.tracker.method).refined;
-}
-
-// A person's shape is told to a fit, and told by one.
-void CheckPeople(const TrackOptions& options) {
-  const bool has_any = !options.people.empty() || !options.save_person.empty();
-  const char* option = options.people.empty() ? "--save-person" : "--person";
-  if (has_any && options.fit == "off") {
-    throw UsageError(fmt::format("{}: expected a surface fit, found --fit off", option));
-  }
-  if (has_any && options.files.surface == "none") {
-    throw UsageError(fmt::format("{}: expected a body surface, found --surface none", option));
-  }
-  if (has_any && !HasJointsToFit(options)) {
-    throw UsageError(fmt::format(
-        "{}: expected refined joints, to which a body is fitted (--method best, or --refinement "
-        "FILE.ossarefine of 'ossa refine'), found none",
-        option));
-  }
-  const auto most = static_cast<size_t>(options.tracker.max_users);
-  if (options.people.size() > most) {
-    throw UsageError(fmt::format("--person: expected at most {} files, as --users says, found {}",
-                                 most, options.people.size()));
-  }
-}
-
-// A fit that was asked for has a body, and joints to start from.
-void CheckFit(const TrackOptions& options) {
-  if (options.fit == "off") throw UsageError("--posture fitted: expected --fit on, found off");
-  if (options.files.surface == "none") {
-    throw UsageError(
-        "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
-  }
-  if (!HasJointsToFit(options)) {
-    throw UsageError(
-        "--fit on: expected --refinement FILE.ossarefine of 'ossa refine' with it, found none");
-  }
 }
 
 void CheckRefinementIsRead(const TrackOptions& options) {
@@ -169,7 +115,7 @@ std::vector<stream::Target> ParseTargets(const std::vector<std::string>& urls) {
 
 void AddTrackerOptions(CLI::App& app, TrackOptions& options) {
   AddModelOptions(app, options.files);
-  AddFitOptions(app, options);
+  AddBodyOptions(app, options);
   AddPostureOptions(app, options);
   AddViewpointOptions(app, options);
 }
@@ -247,6 +193,10 @@ void CheckMethod(const CLI::App& app, const TrackOptions& options) {
   CheckOneOf(method, options.files.database, options.files.prior);
 }
 
+FitNeeds NeedsOf(const TrackOptions& options) {
+  return {options.files, options.tracker.method, options.mount, options.tracker.max_users};
+}
+
 void CheckFiles(const TrackOptions& options) {
   if (!options.out.empty()) CheckSkeletonName(options.out);
   options.write.Check(options.out);
@@ -254,7 +204,7 @@ void CheckFiles(const TrackOptions& options) {
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");
   CheckExtension("--trace", options.trace, ".jsonl");
   CheckNotOtherKind("--save-person", options.save_person, ".ossaperson");
-  CheckPeople(options);
+  CheckPeople(options.fit, options.save_person, NeedsOf(options));
   // A person file may be written over what was read of the same person.
   std::vector<std::string> inputs = options.Sources();
   inputs.push_back(options.mechanics.scene);
@@ -269,7 +219,7 @@ tracker::TrackerOptions MakeTrackerOptions(const TrackOptions& options) {
   tracker::TrackerOptions made = options.tracker;
   made.turn = ChooseTurn(options.source);
   made.lag = options.lag.value_or(UsualLag(options));
-  if (options.fit == "off") made.fit.reset();
+  if (options.fit.is_off()) made.fit.reset();
   made.physics = options.mechanics.on();
   made.mechanics = options.mechanics.build;
   made.scene = options.mechanics.Scene();
@@ -301,7 +251,9 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   if (options.files.surface != "none") options.write.surface = options.files.surface;
   options.write.has_page = options.view;
   CheckFiles(options);
-  if (options.fit == "on" || options.posture == "fitted") CheckFit(options);
+  if (options.fit.fit == "on" || options.posture == "fitted") {
+    CheckFit(options.fit, NeedsOf(options));
+  }
   options.tracker = MakeTrackerOptions(options);
   return options;
 }

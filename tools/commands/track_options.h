@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/commands/checks.h"
+#include "tools/commands/fit_options.h"
 #include "tools/commands/fuse_options.h"
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
@@ -22,9 +23,9 @@ struct TrackOptions {
   std::vector<std::string> more_sources;  // of the same people at the same time
   FuseArguments fuse;                     // of these
   std::string out, json_stats, picture, pictures, trace;
-  std::vector<std::string> people;  // person files, of the ids from 1 on
+  FitArguments fit;
   std::string save_person;
-  std::string smoothing, posture = "final", mode = "standing", mount = "auto", fit;
+  std::string smoothing, posture = "final", mode = "standing", mount = "auto";
   MechanicsOptions mechanics;
   BonesOption bones;
   WriteOptions write;

@@ -18,6 +18,7 @@
 #include "recon/methods/reconstructor.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/fit_options.h"
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/model_options.h"
@@ -46,6 +47,7 @@ struct ViewOptions {
   viewer::Settings settings;
   std::vector<std::string> over;
   std::string mesh, mount = "auto";
+  FitArguments fit;
   std::string record_to;
   bool once = false;
 };
@@ -65,8 +67,9 @@ std::vector<std::string> MethodsToChoose(const tracker::ModelFiles& files) {
   return methods;
 }
 
-recon::SkeletonSequence Read(const std::string& path) {
+recon::SkeletonSequence Read(const std::string& path, double fps) {
   recon::SkeletonReadOptions reading;
+  if (fps > 0) reading.frame_s = 1.0 / fps;
   reading.progress = ReadingBar(false);
   recon::SkeletonSequence sequence = recon::ReadSkeletons(path, reading);
   SayWarnings("view", sequence.warnings);
@@ -81,7 +84,7 @@ viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   if (with.name.empty()) with.name = options.source.name;
   with.body = LoadSkin(options.files.surface, options.mesh);
   for (const std::string& path : options.over) {
-    recon::SkeletonSequence sequence = Read(path);
+    recon::SkeletonSequence sequence = Read(path, options.source.fps);
     with.overlays.push_back({std::filesystem::path(path).filename().string(), sequence});
   }
   return with;
@@ -91,6 +94,7 @@ tracker::TrackerOptions MakeOptions(const ViewOptions& options, const viewer::Se
   tracker::TrackerOptions with = options.tracker;
   with.method = settings.method;
   with.models = tracker::ModelSet::Load(options.files, with.method);
+  with.shapes = ReadPeople(options.fit, *with.models);
   if (!settings.smoothing.empty()) with.smoothing = tracker::SmoothingPreset(settings.smoothing);
   with.mode = settings.seated ? tracker::TrackingMode::kSeated : tracker::TrackingMode::kStanding;
   with.near_range = settings.near_range;
@@ -114,7 +118,7 @@ void WaitUntilInterrupted() {
 }
 
 void ShowSkeletons(const ViewOptions& options) {
-  const recon::SkeletonSequence sequence = Read(options.source.name);
+  const recon::SkeletonSequence sequence = Read(options.source.name, options.source.fps);
   viewer::ViewerOptions with = MakeViewerOptions(options);
   with.keeps = true;
   with.expected_frames = static_cast<int64_t>(sequence.frames.size());
@@ -258,6 +262,7 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
   app.add_option("--mesh", options.mesh,
                  ".ossamesh of 'ossa surface', the skin of that body, on the page and in a .glb "
                  "that it exports, or none (default: the shipped one)");
+  AddFitOptions(app, options.fit);
   AddMechanicsOptions(app, options.mechanics);
   AddMountOption(app, options.mount);
   app.add_flag("--seated", options.settings.seated, "look for the ten upper joints only");
@@ -271,7 +276,7 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
 void SayWhatIsNotTracked(const CLI::App& app, const std::string& file) {
   for (const char* option : {"--model", "--database", "--prior", "--learned", "--refinement",
                              "--pose-network", "--method", "--smoothing", "--physics", "--scene",
-                             "--mount", "--seated", "--near", "--users"}) {
+                             "--mount", "--seated", "--near", "--users", "--fit", "--person"}) {
     if (app.count(option) == 0) continue;
     Say(fmt::format("ossa view: {}: {} is for a source that is tracked: these are skeletons\n",
                     file, option));
@@ -299,12 +304,17 @@ int View(int argc, char** argv) {
   Parse(app, argc, argv);
   CheckRead(app, options.settings.method, false);
   CheckLearned(options.settings.method, options.files.learned);
+  const FitNeeds needs{options.files, options.settings.method, options.mount,
+                       options.settings.users};
+  if (options.fit.fit == "on") CheckFit(options.fit, needs);
+  CheckPeople(options.fit, "", needs);
   options.mechanics.Check();
   if (!options.record_to.empty()) {
     AtomicFile::CheckWritable(std::filesystem::path(options.record_to) / "recording");
   }
   options.tracker.turn = ChooseTurn(options.source);
   options.tracker.mount = ParseMount(options.mount);
+  if (options.fit.is_off()) options.tracker.fit.reset();
   if (IsSource(options.source.name)) {
     FindCamera(
         options.source, [&] { return MakeOptions(options, options.settings); }, false);

@@ -12,6 +12,7 @@
 #include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/tools/commands/tracked_folders.h"
 #include "tools/viewer/viewer.h"
 
 namespace ossa::commands {
@@ -22,6 +23,7 @@ using test::CommandResult;
 using test::LineCount;
 using test::RunOssa;
 using test::TemporaryFolder;
+using tracker::ModelOrNothing;
 
 void WriteSkeletons(const std::filesystem::path& path) {
   std::ofstream file(path);
@@ -141,25 +143,28 @@ TEST(ViewCommand, TakesTheModelsAndTheMountThatTrackTakes) {
   EXPECT_EQ(RunOssa({"view", images, "--port", "0", "--once", "--mount", "level"}).exit_status, 0);
 }
 
-/// Bytes of what the page of this port answers to /mesh, the triangles of a skin.
-int MeshBytes(const std::string& port) {
+/// What the page of this port answers to GET `target`.
+std::string Get(const std::string& port, const std::string& target) {
   const char* get =
-      R"(exec 3<>/dev/tcp/127.0.0.1/$1; printf 'GET /mesh HTTP/1.0\r\nHost: 127.0.0.1\r\n\r\n' >&3)"
-      R"(; cat <&3 | sed '1,/^\r$/d' | wc -c)";
-  const CommandResult got = test::RunProgram({"/bin/bash", "-c", get, "shell", port});
-  return std::stoi("0" + got.out);
+      R"(exec 3<>/dev/tcp/127.0.0.1/$1; printf 'GET %s HTTP/1.0\r\nHost: 127.0.0.1\r\n\r\n' "$2")"
+      R"( >&3; cat <&3 | sed '1,/^\r$/d')";
+  return test::RunProgram({"/bin/bash", "-c", get, "shell", port, target}).out;
+}
+
+std::string FreePort() {
+  viewer::ViewerOptions any;
+  any.port = 0;
+  return std::to_string(viewer::Viewer(any).port());
 }
 
 /// The page of `ossa view` with these arguments, and what was said.
 std::pair<int, std::string> SkinOf(std::vector<std::string> arguments) {
-  viewer::ViewerOptions any;
-  any.port = 0;
-  const std::string port = std::to_string(viewer::Viewer(any).port());
+  const std::string port = FreePort();
   arguments.insert(arguments.begin(), "view");
   arguments.insert(arguments.end(), {"--port", port});
   auto command = test::StartOssa(arguments);
   EXPECT_TRUE(command.WaitForError("watch at", test::kCommandTimeout));
-  const int bytes = MeshBytes(port);
+  const auto bytes = static_cast<int>(Get(port, "/mesh").size());
   command.Signal(SIGINT);
   return {bytes, command.Wait(test::kCommandTimeout).err};
 }
@@ -185,6 +190,55 @@ TEST(ViewCommand, BodiesWearTheSkinThatIsNamed) {
   std::vector<std::string> dressed = own;
   dressed.insert(dressed.end(), {"--mesh", shipped / "body.ossamesh"});
   EXPECT_GT(SkinOf(dressed).first, kTriangles);
+}
+
+/// The skeletons that a page shows of a recording of so many frames.
+std::string SkeletonsShown(const std::string& images, int frames,
+                           const std::vector<std::string>& more) {
+  const std::string port = FreePort();
+  std::vector<std::string> arguments = {"view", images, "--port", port};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  auto command = test::StartOssa(arguments);
+  EXPECT_TRUE(command.WaitForError("watch at", test::kCommandTimeout));
+  const auto give_up = std::chrono::steady_clock::now() + test::kCommandTimeout;
+  std::string lines;
+  while (LineCount(lines) < frames && std::chrono::steady_clock::now() < give_up) {
+    lines = Get(port, "/lines?layer=final&from=0&count=" + std::to_string(frames));
+  }
+  command.Signal(SIGINT);
+  EXPECT_FALSE(command.Wait(test::kCommandTimeout).timed_out);
+  return lines;
+}
+
+TEST(ViewCommand, FitsABodyOrNoneToWhomItIsToldOf) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  constexpr int kFrames = 3;
+  WriteWalk(folder / "in", kFrames);
+  const std::string images = (folder / "in").string(), me = folder / "me.ossaperson";
+  ASSERT_EQ(RunOssa({"track", images, "--save-person", me, "--quiet"}).exit_status, 0);
+  const std::string usual = SkeletonsShown(images, kFrames, {});
+  ASSERT_EQ(LineCount(usual), kFrames);
+  EXPECT_EQ(SkeletonsShown(images, kFrames, {"--fit", "on"}), usual);
+  const std::string without = SkeletonsShown(images, kFrames, {"--fit", "off"});
+  EXPECT_NE(without, usual);
+  EXPECT_EQ(SkeletonsShown(images, kFrames, {"--surface", "none"}), without);
+  EXPECT_NE(SkeletonsShown(images, kFrames, {"--person", me}), usual);
+}
+
+TEST(ViewCommand, AFitThatCannotBeIsRefusedAsByTrack) {
+  const auto refused = [](std::vector<std::string> words) {
+    words.insert(words.begin(), {"view", "in"});
+    const CommandResult result = RunOssa(words);
+    EXPECT_EQ(result.exit_status, 2) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(refused({"--fit", "on", "--surface", "none"}).find("--fit on: expected --surface"),
+            std::string::npos);
+  EXPECT_NE(refused({"--fit", "off", "--person", "me.ossaperson"}).find("--person: expected a"),
+            std::string::npos);
+  EXPECT_NE(refused({"--users", "1", "--person", "a", "--person", "b"}).find("at most 1 files"),
+            std::string::npos);
 }
 
 TEST(ViewCommand, AStillIsASource) {
