@@ -1,5 +1,7 @@
 """ossa.open and ossa.Camera."""
 
+import threading
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,17 @@ def test_a_closed_source_says_so(clip):
     source.close()
     with pytest.raises(ossa.InputError, match="closed"):
         next(source)
+
+
+def test_another_thread_ends_the_wait_for_an_image(clip):
+    silent = f"openni:ossa://{clip}?stall_after=1"
+    with ossa.open(silent, patience_s=600) as source:
+        next(source)
+        another = threading.Timer(0.2, source.close)
+        another.start()
+        with pytest.raises(ossa.InputError, match="stall_after=1: .*closed"):
+            next(source)
+        another.join()
 
 
 def test_what_is_assumed_is_noted(clip, tmp_path):

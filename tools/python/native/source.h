@@ -30,7 +30,8 @@ class NoteBook {
 /// "frame", "timeout", "end" or "disconnected".
 const char* NameOf(depth::ReadStatus status);
 
-/// A SOURCE that one thread at a time reads; others wait.
+/// A SOURCE that one thread at a time reads; others wait. Whoever reads when another closes it is
+/// told so.
 class Source {
  public:
   Source(const std::string& name, const py::dict& given);
@@ -62,6 +63,7 @@ class Source {
     return ask(Opened());
   }
 
+  const std::string name_;
   NoteBook notes_;  // before what writes into it
   std::mutex mutex_;
   std::unique_ptr<depth::FrameSource> frames_;

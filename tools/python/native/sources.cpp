@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "depth/base/error.h"
+#include "depth/base/one_line.h"
 #include "depth/image/camera_io.h"
 #include "depth/sensor/depth_coding.h"
 #include "tools/python/native/arrays.h"
@@ -75,14 +76,15 @@ Notes NoteBook::Take() {
   return std::exchange(notes_, {});
 }
 
-Source::Source(const std::string& name, const py::dict& given) {
+Source::Source(const std::string& name, const py::dict& given) : name_(name) {
   depth::SourceOptions options = ReadSourceOptions(given);
   options.note = [this](depth::NoteKind kind, const std::string& text) { notes_.Add(kind, text); };
   frames_ = Interruptible([&] { return depth::OpenSource(name, options); });
 }
 
 depth::FrameSource& Source::Opened() {
-  if (!frames_) throw InputError("source: expected one that is open, found it closed");
+  if (!frames_)
+    throw InputError(OnOneLine(name_) + ": expected a source that is open, found it closed");
   return *frames_;
 }
 

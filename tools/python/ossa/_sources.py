@@ -115,7 +115,8 @@ class Source(Iterator[DepthImage]):
         return self._dropped
 
     def close(self) -> None:
-        """Lets go of the device or file. Reading on raises InputError."""
+        """Lets go of the device or file, also from another thread. Reading on, or having waited for
+        an image meanwhile, raises InputError."""
         self._native.close()
 
     def _camera_of(self, numbers: Any) -> Camera:
