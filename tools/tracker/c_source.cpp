@@ -143,6 +143,10 @@ ossa_status StatusOf(ossa::depth::ReadStatus status) {
 
 ossa::depth::FrameSource& ossa::tracker::FramesOf(ossa_source& source) { return *source.frames; }
 
+const std::function<bool()>& ossa::tracker::KeepWaitingFor(const ossa_source& source) {
+  return source.keep_waiting;
+}
+
 ossa_source* ossa_source_open(const char* source, const ossa_source_options* options) {
   ossa_source* opened = nullptr;
   ossa::tracker::Guarded([&] {

@@ -184,7 +184,8 @@ ossa_status ossa_tracker_find_upright(ossa_tracker* tracker, ossa_source* source
   return Guarded([&] {
     RequireNotNull(tracker, "ossa_tracker_find_upright", "a tracker");
     RequireNotNull(source, "ossa_tracker_find_upright", "a source");
-    tracker->tracker.FindUpright(ossa::tracker::FramesOf(*source));
+    tracker->tracker.FindUpright(ossa::tracker::FramesOf(*source),
+                                 ossa::tracker::KeepWaitingFor(*source));
     return OSSA_OK;
   });
 }

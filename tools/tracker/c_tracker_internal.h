@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,5 +49,7 @@ ossa_body BodyFrom(const Body& body, const recon::BodySurface* surface);
 ossa_object ObjectFrom(const SceneObjectState& object);
 
 depth::FrameSource& FramesOf(ossa_source& source);
+/// Whether whoever waits for the source goes on (ossa_source_options.keep_waiting).
+const std::function<bool()>& KeepWaitingFor(const ossa_source& source);
 
 }  // namespace ossa::tracker

@@ -20,6 +20,7 @@
 #include "recon/files/skeleton_io.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/full_disk.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/walk_in_c.h"
 
@@ -479,6 +480,24 @@ TEST(CInterface, AnotherThreadEndsTheWaitForAFrame) {
   std::thread other = user.SetAfter(user.asked + 2);
   EXPECT_EQ(ossa_source_read(source, kAnHour_ms, &image), OSSA_TIMEOUT) << ossa_last_error();
   other.join();
+  ossa_source_close(source);
+}
+
+TEST(CInterface, TheSearchForWhichWayIsUpMayBeEnded) {
+  OSSA_NEEDS_MODEL();
+  const std::string clip = test::SourceFolder() / "tests/golden/clips/one";
+  Impatience user;
+  user.has_enough = true;
+  const ossa_source_options options = user.Options();
+  ossa_source* source = ossa_source_open(clip.c_str(), &options);
+  ASSERT_NE(source, nullptr) << ossa_last_error();
+  ossa_options of_tracker = PlainOptionsInC();
+  of_tracker.rotate = "auto";
+  ossa_tracker* tracker = ossa_tracker_create(&of_tracker);
+  ASSERT_NE(tracker, nullptr) << ossa_last_error();
+  EXPECT_EQ(ossa_tracker_find_upright(tracker, source), OSSA_OK) << ossa_last_error();
+  EXPECT_EQ(user.asked, 1);
+  ossa_tracker_destroy(tracker);
   ossa_source_close(source);
 }
 

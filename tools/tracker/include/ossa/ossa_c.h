@@ -102,9 +102,9 @@ typedef struct {
   int32_t mirrored;         /* not 0: its images are as a mirror shows them, and its own camera, or
                                `camera`'s numbers, is of these; both come as the sensor looks */
   /* Asked about ten times a second, in the thread that waits, while a call waits for a device
-     (wait_s), looks for a camera (find_camera) or waits for a frame (ossa_source_read). 0 ends the
-     wait: what opens fails, what reads times out. By what it looks at, another thread ends a wait.
-     NULL: none ends early. */
+     (wait_s) or a frame (ossa_source_read), or looks through frames for a camera (find_camera) or
+     for which way is up (ossa_tracker_find_upright). 0 ends that: opening a device fails, reading
+     times out, nothing is found. What it looks at another thread may set. NULL: none ends early. */
   int32_t (*keep_waiting)(void* keep_waiting_user);
   void* keep_waiting_user;
 } ossa_source_options;
