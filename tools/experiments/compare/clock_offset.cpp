@@ -42,10 +42,27 @@ Speeds ComputeSpeeds(const JointTrack& track, double start_s, double step_s, siz
   return speeds;
 }
 
+struct Correlation {
+  double value = 0.0;         // [-1, 1]
+  double significance = 0.0;  // standard errors
+};
+
+// Fisher 1915: atanh(r) has a standard error of 1 / sqrt(n - 3). The largest correlation alone
+// shifts half a squat onto its other half, whose speeds are the same: a short overlap fits better
+// than the whole does.
+double Significance(double correlation, long shared) {
+  constexpr double kIndependent_s = 2 * kHalf_s;  // apart, speeds have no place in common
+  constexpr double kPerfect = 1 - 1e-9;           // of atanh's infinity
+  const double samples = static_cast<double>(shared) * kStep_s / kIndependent_s;
+  // Of overlaps too short for the formula the correlation alone decides.
+  const double standard_errors = std::sqrt(std::max(1.0, samples - 3));
+  return std::atanh(std::clamp(correlation, -kPerfect, kPerfect)) * standard_errors;
+}
+
 // Pearson's correlation of a(t) with b(t - shift), covariances and variances summed over the
 // joints. Only times that both know count, else the ends of a clip would pull the peak to zero.
 // Fewer shared times than `fewest` give no correlation: short overlaps fit anything.
-double Correlation(const Speeds& a, const Speeds& b, long shift, long fewest) {
+Correlation Correlate(const Speeds& a, const Speeds& b, long shift, long fewest) {
   const auto count = static_cast<long>(a.speed[0].size());
   double covariance = 0;
   double variance_a = 0;
@@ -73,7 +90,9 @@ double Correlation(const Speeds& a, const Speeds& b, long shift, long fewest) {
     shared = std::max(shared, static_cast<long>(n));
   }
   const double variance = std::sqrt(variance_a * variance_b);
-  return shared >= fewest && variance > 0 ? covariance / variance : 0.0;
+  if (shared < fewest || variance <= 0) return {};
+  const double correlation = covariance / variance;
+  return {correlation, Significance(correlation, shared)};
 }
 
 // Half of the shorter recording must overlap.
@@ -112,23 +131,24 @@ ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double
   const Speeds a = ComputeSpeeds(truth, start_s, kStep_s, count);
   const Speeds b = ComputeSpeeds(result, start_s, kStep_s, count);
   const long reach = std::lround(max_offset_s / kStep_s);
-  std::vector<double> score;
+  std::vector<Correlation> score;
   const long fewest = FewestShared(a, b);
   for (long shift = -reach; shift <= reach; ++shift) {
     if (stop && stop()) throw Interruption{};
-    score.push_back(Correlation(a, b, shift, fewest));
+    score.push_back(Correlate(a, b, shift, fewest));
   }
   // Of equal peaks the smallest offset: someone who stands still gives no reason to move the clock.
   size_t best = static_cast<size_t>(reach);
   for (size_t i = 0; i < score.size(); ++i) {
-    if (score[i] > score[best] + 1e-9) best = i;
+    if (score[i].significance > score[best].significance + 1e-9) best = i;
   }
   double shift = static_cast<double>(best) - static_cast<double>(reach);
   if (best > 0 && best + 1 < score.size()) {
-    const double curvature = score[best - 1] - 2 * score[best] + score[best + 1];
-    if (curvature < -1e-12) shift += 0.5 * (score[best - 1] - score[best + 1]) / curvature;
+    const double before = score[best - 1].value, after = score[best + 1].value;
+    const double curvature = before - 2 * score[best].value + after;
+    if (curvature < -1e-12) shift += std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
   }
-  return {shift * kStep_s, score[best]};
+  return {shift * kStep_s, score[best].significance};
 }
 
 double FindClockOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s,
@@ -139,7 +159,7 @@ double FindClockOffset_s(const JointTrack& truth, const JointTrack& result, doub
   const bool is_far = std::abs(starts_s) > max_offset_s;
   if (!is_far || !MayOverlap(truth, result, max_offset_s)) return together.offset_s;
   const ClockMatch equal = MatchClocks(truth, result, max_offset_s, stop);
-  return equal.correlation > together.correlation ? equal.offset_s : together.offset_s;
+  return equal.significance > together.significance ? equal.offset_s : together.offset_s;
 }
 
 }  // namespace ossa::tools

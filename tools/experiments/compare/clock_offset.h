@@ -7,12 +7,15 @@ namespace ossa::tools {
 
 /// The clock of a result against that of the truth.
 struct ClockMatch {
-  double offset_s = 0.0;     // to add to the times of the result
-  double correlation = 0.0;  // of the joints' speeds then, [-1, 1]; 0: nothing to go by
+  double offset_s = 0.0;  // to add to the times of the result
+  /// How significant the correlation of the joints' speeds is then: Fisher's z in standard errors;
+  /// 0: none.
+  double significance = 0.0;
 };
 
-/// The offset within `max_offset_s` so that the result's joint speeds match those of the truth
-/// best: the peak of their normalised cross-correlation on a 10 ms grid, refined by a parabola.
+/// The offset within `max_offset_s` at which the joint speeds of result and truth correlate most
+/// significantly, on a 10 ms grid, refined by a parabola through their normalised
+/// cross-correlation.
 /// Throws Interruption (tools/experiments/experiment.h) once `stop`, asked at each offset, says so.
 ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double max_offset_s,
                        const std::function<bool()>& stop = {});
