@@ -158,10 +158,6 @@ std::string EvaluationJson(const Evaluation& e) {
 }
 
 std::string EvaluationHtml(const Evaluation& e, const std::string& title) {
-  std::string escaped;
-  for (const char c : title) {
-    escaped += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  }
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
       "<style>body{{font:15px sans-serif;max-width:46em;margin:2em auto}}td{{padding:1px 8px}}"
@@ -172,7 +168,7 @@ std::string EvaluationHtml(const Evaluation& e, const std::string& title) {
       "svg text{{font:11px "
       "sans-serif}}.grid{{stroke:#e4e4e4}}.plot{{width:100%}}</style></head><body>\n"
       "<h1>{0}</h1>\n",
-      escaped);
+      Escaped(title));
   html += fmt::format(
       "<p>{} frames, {} people. Pixels right: {} %. Mean of the classes: {} %. Joint mAP at "
       "10 cm: {}, visible joints only: {}. Left and right swapped: {} % of all people, "

@@ -193,6 +193,16 @@ TEST_F(CompareCommand, PairsClipsInWhichAResultHasABodyTooMany) {
   EXPECT_EQ(json["tests"][0]["clips"], 6);
 }
 
+// Of a file whose name no browser could read.
+TEST_F(CompareCommand, WritesAReportInUtf8WhateverItsFilesAreCalled) {
+  const std::string odd = folder_ / "a<\xFF.jsonl", report = folder_ / "r.html";
+  std::filesystem::copy_file(near_, odd);
+  ASSERT_EQ(RunOssa({"compare", truth_, odd, "--report", report}).exit_status, 0);
+  const std::string page = Content(report);
+  EXPECT_NE(page.find("a&lt;\\xFF.jsonl"), std::string::npos);
+  EXPECT_EQ(page.find('\xFF'), std::string::npos);
+}
+
 // Who finds nobody has missed everybody: that is a row beside the others', not an error.
 TEST_F(CompareCommand, ShowsTheMissesOfAResultInWhichNobodyIs) {
   auto nobody = ExampleSequence(20);

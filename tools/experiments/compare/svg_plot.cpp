@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
+
+#include "depth/base/one_line.h"
 
 namespace ossa::tools {
 namespace {
@@ -120,11 +123,23 @@ Frame FrameOf(const std::vector<Series>& all, const Axes& axes) {
   return frame;
 }
 
+// Names of files may hold bytes that are no UTF-8: pages are of nothing else.
+std::string Printable(std::string_view text) {
+  std::string lines;
+  while (true) {
+    const size_t end = text.find('\n');
+    lines += OnOneLine(text.substr(0, end));
+    if (end == std::string_view::npos) return lines;
+    lines += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
 }  // namespace
 
 std::string Escaped(const std::string& text) {
   std::string safe;
-  for (const char c : text) {
+  for (const char c : Printable(text)) {
     switch (c) {
       case '&':
         safe += "&amp;";

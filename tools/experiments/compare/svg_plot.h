@@ -5,7 +5,7 @@
 
 namespace ossa::tools {
 
-/// Text made safe for HTML and SVG.
+/// Text made safe for HTML and SVG in UTF-8, its lines as they are.
 std::string Escaped(const std::string& text);
 
 /// A colour that tells series apart, by index; the truth is drawn in kTruthColour.
