@@ -1,17 +1,34 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <mutex>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/warnings.h"
 #include "tools/experiments/experiment.h"
 #include "tools/experiments/page/page.h"
 
 namespace ossa::commands {
 namespace {
+
+// Prints each warning once: studies load their models many times.
+class NewWarnings {
+ public:
+  void Say(const std::string& warning) {
+    const std::lock_guard lock(mutex_);
+    if (said_.insert(warning).second) SayWarnings("experiment", std::vector{warning});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<std::string> said_;
+};
 
 std::string ListExperiments() {
   std::string list = "Experiments:";
@@ -36,6 +53,8 @@ int RunAndPrint(const std::string& name, tools::ExperimentContext& context, bool
     progress.Update(done, total, note);
   };
   context.interrupted = Interrupted;
+  NewWarnings warnings;
+  context.warn = [&](const std::string& warning) { warnings.Say(warning); };
   try {
     const auto tables = tools::RunExperiment(name, context);
     AtomicFile page(context.out / "index.html");

@@ -6,7 +6,16 @@ tracker::ModelSet LoadModels(const ExperimentContext& context, std::string_view 
   tracker::ModelFiles files;
   files.forest = context.model.string();
   files.database = context.database.string();
-  return tracker::ModelSet::Load(files, method);
+  return LoadModels(context, files, method);
+}
+
+tracker::ModelSet LoadModels(const ExperimentContext& context, const tracker::ModelFiles& files,
+                             std::string_view method) {
+  tracker::ModelSet models = tracker::ModelSet::Load(files, method);
+  for (const std::string& warning : models.warnings) {
+    if (context.warn) context.warn(warning);
+  }
+  return models;
 }
 
 }  // namespace ossa::tools

@@ -100,6 +100,9 @@ struct ExperimentContext {
   bool full = false;  // the study's long form; the short one takes a minute or two
   std::function<void(double done, double total, const std::string& note)> progress;
   std::function<bool()> interrupted;  // true: stop soon, by StopIfAsked()
+  // Called with one line for each model file that does not belong to the others, each time they are
+  // loaded and from any thread; may be empty.
+  std::function<void(const std::string& line)> warn;
 
   /// Throws Interruption when the user pressed Ctrl-C. Studies ask between steps of a second.
   void StopIfAsked() const;

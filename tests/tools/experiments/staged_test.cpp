@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
@@ -10,11 +11,14 @@
 #include "recon/fit/body_surface.h"
 #include "recon/refine/pose_network.h"
 #include "recon/refine/refinement_cascade.h"
+#include "tests/support/perceptrons.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/experiments/compare/metrics.h"
+#include "tools/experiments/context_models.h"
 #include "tools/experiments/stage/motions.h"
 #include "tools/experiments/stage/staged_internal.h"
+#include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
 namespace {
@@ -112,6 +116,24 @@ TEST(ObserverFiles, AreAllThatTheTrackerReads) {
                                       recon::kShippedPoseNetwork, recon::kShippedSurface}));
   EXPECT_EQ(NamesOf(FindObserverFiles("mine.ossa")),
             (std::vector<std::string>{"mine.ossa", recon::kShippedSurface}));
+}
+
+TEST(ModelsOfAStudy, ThatDoNotBelongTogetherAreToldOf) {
+  if (!std::filesystem::exists(tracker::ShippedFile("body.ossa"))) GTEST_SKIP() << "no model";
+  const test::TemporaryFolder folder;
+  recon::RefinementCascade other;
+  other.stages.emplace_back().fill(test::SilentPerceptron({recon::kStageFeatures, 3}));
+  other.forest_checksum = 1;
+  tracker::ModelFiles files;
+  files.refinement = folder / "other.ossarefine";
+  other.Save(files.refinement);
+  ExperimentContext context;
+  LoadModels(context, files, recon::kDefaultMethod);  // nobody is to be told
+  std::vector<std::string> told;
+  context.warn = [&](const std::string& line) { told.push_back(line); };
+  LoadModels(context, files, recon::kDefaultMethod);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("other.ossarefine: learned at"), std::string::npos) << told[0];
 }
 
 RecordedPair FoundFrom(size_t first, size_t frames) {

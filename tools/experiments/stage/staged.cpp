@@ -15,6 +15,7 @@
 #include "recon/refine/pose_network.h"
 #include "recon/refine/refinement_cascade.h"
 #include "tools/experiments/compare/sequence_text.h"
+#include "tools/experiments/context_models.h"
 #include "tools/experiments/stage/staged_internal.h"
 #include "tools/synth/clothed_actor.h"
 #include "tools/synth/dataset.h"
@@ -275,7 +276,7 @@ tracker::Tracker MakeObserver(const ExperimentContext& context, const ObserverFi
   tracker::ModelFiles files;
   files.forest = observer.forest.string();
   files.refinement = observer.refinement.string();
-  options.models = tracker::ModelSet::Load(files, options.method);
+  options.models = LoadModels(context, files, options.method);
   options.smoothing = tracker::SmoothingPreset("none");
   options.threads = context.threads;
   return tracker::Tracker(options);
