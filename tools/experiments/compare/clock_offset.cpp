@@ -52,7 +52,7 @@ struct Correlation {
 // than the whole does.
 double Significance(double correlation, long shared) {
   constexpr double kIndependent_s = 2 * kHalf_s;  // apart, speeds have no place in common
-  constexpr double kPerfect = 1 - 1e-9;           // of atanh's infinity
+  constexpr double kPerfect = 1 - 1e-9;           // a factor, by hand: atanh(1) is infinite
   const double samples = static_cast<double>(shared) * kStep_s / kIndependent_s;
   // Of overlaps too short for the formula the correlation alone decides.
   const double standard_errors = std::sqrt(std::max(1.0, samples - 3));
