@@ -286,7 +286,7 @@ SkeletonSequence ReadC3d(SkeletonInput& input) {
   SkeletonSequence sequence{input.name, {}};
   const auto bodies =
       FindPointBodies(c3d.labels, input.mapping, {input.name, "POINT:LABELS"}, sequence.warnings);
-  const double step_s = input.FrameTime_s(1.0 / c3d.rate_Hz);
+  const double step_s = 1.0 / c3d.rate_Hz;
   std::vector<SeenPoint> points(c3d.labels.size());
   for (size_t f = 0; f < c3d.frames; ++f) {
     for (size_t p = 0; p < points.size(); ++p) {

@@ -35,7 +35,7 @@ std::vector<double> SaverTimes_s(const SkeletonInput& input, size_t frames) {
   const size_t slash = input.name.find_last_of("/#");
   const std::string folder = slash == std::string::npos ? "" : input.name.substr(0, slash + 1);
   std::vector<double> times;
-  if (input.sibling && input.frame_s <= 0) {
+  if (input.sibling) {
     if (const auto text = input.sibling(folder + kSaverTimes)) {
       if (text->size() != frames * kRow) {
         FailAtByte(folder + kSaverTimes, text->size(), fmt::format("{} rows of five", frames));

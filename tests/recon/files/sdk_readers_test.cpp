@@ -224,6 +224,25 @@ TEST(KinectStreamSaver, TakesTimesFromTheFileBesideIt) {
   EXPECT_NEAR(ReadSkeletons(folder / "Joint_Position.binary").frames[1].time_s, 0.040, kExact);
 }
 
+void ExpectOwnTimes(const SkeletonSequence& read, double second_s) {
+  EXPECT_NEAR(read.frames[1].time_s, second_s, kExact);
+  ASSERT_FALSE(read.warnings.empty());
+  EXPECT_NE(read.warnings.back().find("times of its own"), std::string::npos);
+}
+
+TEST(FrameRate, IsOfFilesThatStateNone) {
+  SkeletonReadOptions slower;
+  slower.frame_s = 0.125;
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "Joint_Position.binary", std::ios::binary) << SaverBytes(2);
+  EXPECT_NEAR(ReadSkeletons(folder / "Joint_Position.binary", slower).frames[1].time_s, 0.125,
+              kExact);
+  std::ofstream(folder / "liTimeStamp.binary", std::ios::binary) << SaverTimesBytes();
+  ExpectOwnTimes(ReadSkeletons(folder / "Joint_Position.binary", slower), 0.040);
+  std::ofstream(folder / "x.c3d", std::ios::binary) << C3dBytes();
+  ExpectOwnTimes(ReadSkeletons(folder / "x.c3d", slower), 0.02);
+}
+
 // The times were taken for a recording of their own, which nobody knows.
 TEST(KinectStreamSaver, IsReadAsTheFolderOrArchiveThatItIs) {
   const test::TemporaryFolder folder;
