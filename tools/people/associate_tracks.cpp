@@ -11,7 +11,7 @@
 namespace ossa::people {
 namespace {
 
-// Cells of the track's surface that the person holds now.
+// Cells that the track and the person have in common, at about the same depth.
 size_t CountCommonCells(const PointGrid& grid, const Track& track, const Region& person,
                         float same_depth_m) {
   size_t common = 0, i = 0;
@@ -25,7 +25,7 @@ size_t CountCommonCells(const PointGrid& grid, const Track& track, const Region&
   return common;
 }
 
-// Cells both hold, as a share of the smaller.
+// Common cells, as a share of the smaller segment.
 double MeasureOverlap(const PointGrid& grid, const Track& track, const Region& person,
                       float same_depth_m) {
   if (track.cells.empty()) return 0;
@@ -33,7 +33,7 @@ double MeasureOverlap(const PointGrid& grid, const Track& track, const Region& p
          static_cast<double>(std::min(track.cells.size(), person.cells.size()));
 }
 
-// Whose each cell is, as an index into `people`; -1 for nobody's.
+// The person that each cell belongs to, as an index into `people`; -1 for none.
 std::vector<int> MapCellsToPeople(const PointGrid& grid, const std::vector<Detection>& people) {
   std::vector<int> person_of(static_cast<size_t>(grid.cells()), -1);
   for (size_t p = 0; p < people.size(); ++p) {
@@ -43,9 +43,9 @@ std::vector<int> MapCellsToPeople(const PointGrid& grid, const std::vector<Detec
   return person_of;
 }
 
-// Which track each person continues by their cells; -1 for none. Of somebody whose pieces are taken
-// for two people the one that holds much more goes on, whichever was told to: ids do not go to and
-// fro.
+// The track that each person continues by overlap; -1 for none. Where a person is split in two, the
+// track goes to the segment with far more common cells, whichever was associated first, so that ids
+// do not alternate.
 std::vector<int> FindContinuedTracks(const PointGrid& grid, const std::vector<Detection>& people,
                                      const std::vector<Track>& tracks,
                                      const AssociationOptions& options) {
@@ -58,18 +58,18 @@ std::vector<int> FindContinuedTracks(const PointGrid& grid, const std::vector<De
       return CountCommonCells(grid, tracks[static_cast<size_t>(t)], person.candidate.region,
                               options.same_depth_m);
     };
-    size_t most = options.heir_factor * count(people[p]), heir = p;
+    size_t most = options.takeover_factor * count(people[p]), best = p;
     for (size_t other = 0; other < people.size(); ++other) {
       if (track_of[other] >= 0) continue;
       const size_t common = count(people[other]);
-      if (common > most) most = common, heir = other;
+      if (common > most) most = common, best = other;
     }
-    if (heir != p) std::swap(track_of[p], track_of[heir]);
+    if (best != p) std::swap(track_of[p], track_of[best]);
   }
   return track_of;
 }
 
-// Rivals that are not part of a person by now.
+// Rivals whose cells do not belong to people by now.
 std::vector<const Region*> SelectFreeRivals(const std::vector<Region>& rivals,
                                             const std::vector<int>& person_of, double taken_share) {
   std::vector<const Region*> free;
@@ -83,7 +83,7 @@ std::vector<const Region*> SelectFreeRivals(const std::vector<Region>& rivals,
   return free;
 }
 
-// Tracks that nobody continues, as indices.
+// Tracks without a person in this frame, as indices.
 std::vector<size_t> FindLostTracks(const std::vector<Detection>& people,
                                    const std::vector<int>& track_of, size_t tracks) {
   std::vector<uint8_t> taken(tracks, 0);
@@ -98,8 +98,8 @@ std::vector<size_t> FindLostTracks(const std::vector<Detection>& people,
   return lost;
 }
 
-// Which track each person is: who continues from the frame before, and all the others at once as
-// those of the lost tracks they most likely are. -1 for somebody new.
+// The track of each person: by overlap with the frame before, and for all others by the best
+// assignment to the lost tracks. -1 for a new person.
 std::vector<int> AssignTracks(const Scene& scene, const std::vector<Region>& rivals,
                               const std::vector<Detection>& people,
                               const std::vector<int>& person_of, double time_s,
@@ -122,16 +122,16 @@ std::vector<int> AssignTracks(const Scene& scene, const std::vector<Region>& riv
       const double overlap = time_s - track.last_seen_s < options.overlap_s
                                  ? MeasureOverlap(grid, track, region, options.same_depth_m)
                                  : 0.0;
-      weight.back().push_back(CompareWithLost(grid, track, region.mean_m, measures, entrance,
-                                              time_s, options.reidentify) +
-                              (overlap > options.min_overlap ? options.same_cells * overlap : 0.0) -
-                              less);
+      weight.back().push_back(
+          ComputeLostTrackLogOdds(grid, track, region.mean_m, measures, entrance, time_s,
+                                  options.reidentify) +
+          (overlap > options.min_overlap ? options.overlap_log_odds * overlap : 0.0) - less);
     }
   };
   for (const size_t p : unknown)
     add(people[p].candidate.region, people[p].measures, static_cast<int>(p), 0.0);
-  for (const Region* rival : SelectFreeRivals(rivals, person_of, options.rival_taken))
-    add(*rival, {}, -1, options.nobody_yet);
+  for (const Region* rival : SelectFreeRivals(rivals, person_of, options.max_rival_taken_share))
+    add(*rival, {}, -1, options.rival_log_odds);
   const std::vector<int> assigned = FindBestAssignment(weight, lost.size());
   for (size_t i = 0; i < unknown.size(); ++i) {
     if (assigned[i] >= 0)
@@ -144,16 +144,16 @@ bool IsAmong(const std::vector<int>& ids, int id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-// Of those who were in view a moment ago. `ids`: who is.
-void NoteWhereLost(const Scene& scene, const std::vector<int>& person_of,
-                   const std::vector<int>& ids, double time_s, const AssociationOptions& options,
-                   std::vector<Track>& tracks) {
+// Updates tracks that went out of view. `ids`: of the people in this frame.
+void MarkLostTracks(const Scene& scene, const std::vector<int>& person_of,
+                    const std::vector<int>& ids, double time_s, const AssociationOptions& options,
+                    std::vector<Track>& tracks) {
   for (Track& track : tracks) {
     if (IsAmong(ids, track.id) || track.cells.empty()) continue;
     track.lost_behind =
         track.lost_behind || FindEntrance(scene.grid, track.cells, track.z_m, person_of, -1,
                                           options.reidentify) == Entrance::kBehind;
-    if (track.last_seen_s < time_s - options.cells_s) track.cells.clear(), track.z_m.clear();
+    if (track.last_seen_s < time_s - options.keep_cells_s) track.cells.clear(), track.z_m.clear();
   }
 }
 
@@ -166,17 +166,17 @@ bool HasId(const std::vector<Track>& tracks, int id) {
                      [&](const Track& track) { return track.id == id; });
 }
 
-// The next one in turn that nobody has, confirmed or lost. See ForgetTooMany: there is one.
-int TakeId(TrackList& list) {
+// The next free id. LimitTrackCount guarantees that there is one.
+int AllocateId(TrackList& list) {
   int id = list.next_id;
   while (HasId(list.tracks, id)) id = NextId(id);
   list.next_id = NextId(id);
   return id;
 }
 
-// Where time stands still nobody is out of view for too long, but ids are not to run out: then who
-// came first of those out of view goes. Half of the ids stay free for the next frame.
-void ForgetTooMany(const std::vector<int>& ids, std::vector<Track>& tracks) {
+// Where timestamps stand still no track expires; this keeps the ids from running out. The oldest
+// lost tracks are deleted, so that half of the ids are free for the next frame.
+void LimitTrackCount(const std::vector<int>& ids, std::vector<Track>& tracks) {
   constexpr size_t kMost = kLargestId / 2;
   size_t too_many = std::max(tracks.size(), kMost) - kMost;
   std::erase_if(tracks, [&](const Track& track) {
@@ -186,7 +186,7 @@ void ForgetTooMany(const std::vector<int>& ids, std::vector<Track>& tracks) {
   });
 }
 
-// Who turned out to be part of somebody else is nobody, and may not claim cells again.
+// Deletes tracks that proved to be parts of another person, so that they claim no cells.
 void ForgetAbsorbed(const std::vector<Detection>& people, const std::vector<int>& ids,
                     std::vector<Track>& tracks) {
   std::vector<int> absorbed;
@@ -199,13 +199,13 @@ void ForgetAbsorbed(const std::vector<Detection>& people, const std::vector<int>
   });
 }
 
-// Where the clock goes back another recording begins, in which whoever is followed goes on. Returns
-// the ids of those who were seen later than now; a few milliseconds are the logger's doing.
-std::vector<int> FollowClockBack(double time_s, std::vector<Track>& tracks) {
+// Where timestamps go back another recording begins, in which the tracks continue. Returns the ids
+// of the tracks that were last seen later than now by more than timestamp jitter.
+std::vector<int> RewindTracks(double time_s, std::vector<Track>& tracks) {
   std::vector<int> ids;
   for (Track& track : tracks) {
     if (time_s >= track.last_seen_s) continue;
-    // Else somebody would be moving lately until that time comes again.
+    // Otherwise the track would count as recently moved until that time comes again.
     const double back_s = track.last_seen_s - time_s;
     track.moved_s -= back_s;
     track.facing_s -= back_s;
@@ -230,7 +230,7 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
                                  const std::vector<Detection>& people, double time_s,
                                  TrackList& list, const AssociationOptions& options) {
   std::vector<Track>& tracks = list.tracks;
-  const std::vector<int> of_later = FollowClockBack(time_s, tracks);
+  const std::vector<int> of_later = RewindTracks(time_s, tracks);
   const std::vector<int> person_of = MapCellsToPeople(scene.grid, people);
   std::vector<int> track_of =
       AssignTracks(scene, rivals, people, person_of, time_s, tracks, options);
@@ -239,7 +239,7 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
     if (track_of[p] < 0) {
       track_of[p] = static_cast<int>(tracks.size());
       Track track;
-      track.id = TakeId(list);
+      track.id = AllocateId(list);
       tracks.push_back(std::move(track));
     }
     Track& track = tracks[static_cast<size_t>(track_of[p])];
@@ -249,15 +249,15 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
   ForgetAbsorbed(people, ids, tracks);
   std::erase_if(tracks,
                 [&](const Track& track) { return IsForgotten(track, time_s, options.reidentify); });
-  ForgetTooMany(ids, tracks);
-  NoteWhereLost(scene, person_of, ids, time_s, options, tracks);
+  LimitTrackCount(ids, tracks);
+  MarkLostTracks(scene, person_of, ids, time_s, options, tracks);
   for (Track& track : tracks) {
-    if (IsAmong(of_later, track.id) && !IsAmong(ids, track.id)) ForgetEvidence(track);
+    if (IsAmong(of_later, track.id) && !IsAmong(ids, track.id)) ResetEvidence(track);
   }
   return ids;
 }
 
-void GiveBackId(int id, TrackList& list) {
+void ReleaseId(int id, TrackList& list) {
   if (list.next_id == NextId(id)) list.next_id = id;
 }
 

@@ -3,31 +3,30 @@
 
 #include "tools/people/detection.h"
 
-// Who is who from one frame to the next.
+// Association of detected people with tracks.
 namespace ossa::people {
 
-/// Everybody who is followed, confirmed or lost a moment ago.
+/// All tracks, confirmed or lost.
 struct TrackList {
   std::vector<Track> tracks;
   int next_id = 1;
 };
 
-/// Candidates that nobody takes for a person yet, but which may be lost tracks: they leave the
-/// others to those who are people.
+/// Candidates that are not accepted as people yet but may be lost tracks. They compete in the
+/// association, so that an accepted person does not take the track of somebody else.
 std::vector<Region> FindRivals(const std::vector<Candidate>& candidates);
 
-/// Gives the detected people of a frame their identities (same order), 1 to 255, and updates their
-/// tracks. Nobody gets the identity of somebody who is remembered. `rivals`: FindRivals of the
-/// frame.
+/// Assigns the detected people of a frame their ids (same order), 1 to 255, and updates the tracks.
+/// A new person never gets the id of a lost track. `rivals`: FindRivals of the frame.
 std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& rivals,
                                  const std::vector<Detection>& people, double time_s,
                                  TrackList& list, const AssociationOptions& options = {});
 
-/// Somebody new turned out to be nobody before anybody was told: the next one new gets the id,
-/// unless others came after them.
-void GiveBackId(int id, TrackList& list);
+/// Reuses the id of a new person whose acceptance was revoked before it was reported, unless later
+/// ids were given.
+void ReleaseId(int id, TrackList& list);
 
-/// Confirmed and lost tracks, as of a frame. `ids`: of the people in it.
+/// Confirmed and lost tracks after a frame. `ids`: of the people in it.
 std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks,
                                           const std::vector<int>& ids);
 

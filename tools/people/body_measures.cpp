@@ -6,12 +6,12 @@
 namespace ossa::people {
 namespace {
 
-// Standard deviations of measures, metres: over people, over frames of one person, and what stays
-// off however many frames are averaged, for people bend, turn and stand half behind others.
-// Measured on rendered rooms (`ossa experiment indoor-scenes`) with validation subjects: people
-// crossing (frames; means of eight frames), and people standing.
+// Standard deviations of the measures, metres: between people; between frames of one person; and
+// the bias that averaging does not remove, as people bend, turn and are half occluded. Measured on
+// rendered rooms (`ossa experiment indoor-scenes`) with validation subjects: people crossing
+// (frames; means of eight frames), and people standing.
 struct Spread {
-  double people, frames, lasting;
+  double people, frames, bias;
 };
 constexpr std::array<Spread, kMeasureCount> kSpread = {{
     {0.140, 0.028, 0.030},  // head's height over the floor
@@ -44,9 +44,9 @@ double CompareMeasures(const BodyMeasures& known, const FrameMeasures& frame, bo
   for (size_t k = 0; k < kMeasureCount; ++k) {
     if (known.frames[k] == 0 || !frame[k]) continue;
     const Spread& spread = kSpread[k];
-    const double rougher = half_hidden ? options.half_hidden : 1.0;
-    const double both_frames = Square(rougher) + 1.0 / known.frames[k];
-    const double noise = 2 * Square(spread.lasting) + both_frames * Square(spread.frames);
+    const double noise_factor = half_hidden ? options.half_hidden : 1.0;
+    const double both_frames = Square(noise_factor) + 1.0 / known.frames[k];
+    const double noise = 2 * Square(spread.bias) + both_frames * Square(spread.frames);
     const double off_m = static_cast<double>(known.mean_m[k] - *frame[k]);
     const double ratio =
         LogNormal(off_m, noise) - LogNormal(off_m, noise + 2 * Square(spread.people));

@@ -55,7 +55,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     Candidate part;
     part.pixels = CollectPixels(frame, scene.grid, piece);
     part.track = pieces.empty() ? candidate.track : -1;
-    part.rejected = candidate.rejected;
+    part.recently_rejected = candidate.recently_rejected;
     part.has_head = true;
     part.region_index = candidate.region_index;
     part.flat_share = candidate.flat_share;
@@ -109,7 +109,7 @@ bool MeetAlongRim(const Scene& scene, const Candidate& a, const Candidate& b,
     }
     return false;
   };
-  // Each step along the rim is met by up to `reach` cells, one above the other.
+  // Each column of the rim is counted for up to `reach` cells, one above the other.
   const auto rim = std::count_if(a.region.cells.begin(), a.region.cells.end(), meets);
   return static_cast<float>(rim) >
          static_cast<float>(reach) * grid.CellsOf(options.rim_m, a.region.mean_m.z());

@@ -5,8 +5,8 @@
 
 namespace ossa::people {
 
-/// What candidates are classified with.
-struct Classifying {
+/// What the classification of a frame's candidates reads.
+struct ClassificationInput {
   const PersonClassifier& classifier;
   const DepthFrame& frame;
   const Scene& scene;
@@ -14,31 +14,32 @@ struct Classifying {
   const PeopleOptions& options;
 };
 
-/// Candidates with the forest's word on them. Those that look more like one person together than
-/// alone are merged; one with several heads is cut where the pieces are people themselves. What
-/// became part of others, and pieces that are nobody, go to `decided`.
-std::vector<Detection> ClassifyCandidates(const Classifying& with,
+/// Classifies the candidates by the forest, and by the pose network where there is one. Pairs that
+/// score higher merged than apart are merged; a candidate with several heads is split if its
+/// segments are people themselves. Candidates that were merged or split, and rejected segments, go
+/// to `decided`.
+std::vector<Detection> ClassifyCandidates(const ClassificationInput& with,
                                           std::vector<Candidate> candidates,
                                           std::vector<Decision>& decided);
 
-/// Takes off a detected person the furniture that hangs on: what is not near any of their bones,
-/// where more is held than a person has, or where all bones are known and something reaches far
+/// Removes furniture that touches a detected person: cells that are not near any of their bones, if
+/// the surface is larger than one person's, or if all bones are known and the segment extends far
 /// beyond them.
 void CropToBody(const JointTargets& targets, const DepthFrame& frame, const Scene& scene,
                 const ClassificationOptions& options, Detection& detection);
 
-/// Whether two pieces are tried as one person: where they would be two people one above the other
-/// (`stacked`); and at first, when nobody knows how many there are, where they meet and either
-/// looks like a person.
-bool MayBePartsOfOne(const Scene& scene, const PeopleOptions& options, const Detection& a,
-                     const Detection& b, bool stacked);
+/// Whether merging two detections is tried: where they would be two people one above the other
+/// (`stacked`); and in the first frames, where the number of people is unknown, if they share a rim
+/// and either is classified as a person.
+bool MayBePartsOfOnePerson(const Scene& scene, const PeopleOptions& options, const Detection& a,
+                           const Detection& b, bool stacked);
 
-/// Whether one is above the other, as the sensor sees it or over the floor.
+/// Whether one is above the other, in the image or over the floor.
 bool AreStacked(const Scene& scene, const PeopleOptions& options, const Detection& a,
                 const Detection& b);
 
-/// False of somebody tracked for long of whom no more shows than before: where the forest sees a
-/// second head, as on the back of who bends down, nobody came.
-bool MayBeTwo(const Detection& whole, const ClassificationOptions& options);
+/// Whether a detection with two heads may be split. False for a long-lived track whose surface did
+/// not grow: the second head is a misclassification, as on the back of a person who bends down.
+bool MayBeTwoPeople(const Detection& whole, const ClassificationOptions& options);
 
 }  // namespace ossa::people

@@ -5,19 +5,19 @@
 
 namespace ossa::people {
 
-/// Which rule decided about a piece of the scene. Texts: DescribeRule.
+/// Which rule decided about a segment of the scene. Texts: DescribeRule.
 enum class Rule {
-  // Geometry: it never was a candidate.
+  // Excluded by geometry.
   kTooSmall,
   kFurniture,
   kBackground,
-  // It was not classified.
+  // Not classified.
   kCandidateLimit,
   kRejectedBefore,
-  // It became part of something else, whose decision is another entry.
+  // Merged or split: the result is another entry.
   kMerged,
   kSplitAtHeads,
-  // Not, or not yet, a person.
+  // Rejected or tentative.
   kPlanar,
   kFirstLook,
   kFewObservations,
@@ -37,38 +37,39 @@ enum class Rule {
   kCount
 };
 
-/// What became of a piece of the scene. Texts: NameOutcome.
+/// The result for a segment of the scene. Texts: NameOutcome.
 enum class Outcome {
   kExcluded,   // by geometry
-  kMerged,     // in another entry
-  kRejected,   // the forest takes it for no person
-  kTentative,  // looked at again in the next frames
-  kConfirmed,  // a person; `track` is the id
+  kMerged,     // into another entry
+  kRejected,   // the score is too low
+  kTentative,  // classified again in the next frames
+  kConfirmed,  // accepted as a person; `track` is the id
 };
 
-/// A short name for files, e.g. "too_small"; what it means, one line.
+/// A short name for files, e.g. "too_small"; a one-line explanation.
 std::string_view NameRule(Rule rule);
 std::string_view DescribeRule(Rule rule);
 std::string_view NameOutcome(Outcome outcome);
 Outcome FindOutcome(Rule rule);
 
-/// Why a piece of the scene was taken for a person or not.
+/// Why a segment of the scene was accepted as a person or not.
 struct Decision {
   Rule rule = Rule::kFirstLook;
-  Eigen::Vector3d place_m = Eigen::Vector3d::Zero();  // middle of the seen surface, camera space
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();   // of the box around it
-  double area_m2 = 0;                                 // of the surface, as seen frontally
-  bool classified = false;                            // what follows was computed
-  double score = 0;         // that it is a person by the forest, this look alone, [0, 1]
-  double mean_score = 0;    // ... and all observations
-  double needed_score = 0;  // that the rule asks for; above 1: no score is enough
-  int observations = 0;     // detections of the track, or observations of the tentative one
-  int track = 0;            // id of the person; 0 nobody
+  Eigen::Vector3d place_m =
+      Eigen::Vector3d::Zero();  // centroid of the visible surface, camera space
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // of its bounding box
+  double area_m2 = 0;                                // of the surface, as seen frontally
+  bool classified = false;                           // the members below are set
+  double score = 0;         // probability of being a person in this frame alone, [0, 1]
+  double mean_score = 0;    // mean over all observations, [0, 1]
+  double needed_score = 0;  // threshold of the rule; above 1: cannot be reached
+  int observations = 0;     // detections of the track, or observations of the tentative track
+  int track = 0;            // id of the person; 0 for none
 };
 
-/// Confirmed tracks are seen, lost ones are remembered.
+/// Confirmed: seen in this frame. Lost: out of view, but may return.
 enum class TrackStatus { kConfirmed, kLost };
-/// Somebody who is followed.
+/// A tracked person.
 struct TrackSummary {
   int id = 0;
   TrackStatus status = TrackStatus::kConfirmed;
@@ -76,9 +77,9 @@ struct TrackSummary {
   int age = 0;  // detections
 };
 
-/// All decisions of one frame, and who is followed after it.
+/// All decisions of one frame, and the tracks after it.
 struct FrameDecisions {
-  bool fresh_scene = false;  // no frame of this scene was seen a moment ago
+  bool fresh_scene = false;  // the first frame, or the first after the scene changed
   std::vector<Decision> candidates;
   std::vector<TrackSummary> tracks;
 };

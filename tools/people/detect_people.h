@@ -9,50 +9,51 @@
 #include "tools/people/detection.h"
 #include "tools/people/track_initiation.h"
 
-/// Who is in the picture, and which pixels are whose.
+/// Person detection and tracking: who is in the image, and which pixels belong to whom.
 namespace ossa::people {
 
-/// All that is remembered between frames.
+/// The state between frames.
 struct PeopleState {
   depth::SceneState scene;
   TrackList tracks;                       // confirmed and lost
-  std::vector<TentativeTrack> tentative;  // no person so far
+  std::vector<TentativeTrack> tentative;  // not accepted as people so far
 };
 
 struct Person {
-  int id = 0;  // 1 to 255, the same while somebody is followed
+  int id = 0;  // 1 to 255, constant while the person is tracked
   Detection detection;
 };
 
 struct PeopleInFrame {
   std::optional<FloorPlane> floor;
   std::vector<Person> people;
-  depth::Image<uint8_t> users;  // id of the person each pixel belongs to, 0 nobody
-  FrameDecisions decisions;     // on every candidate
-  double segment_ms = 0, classify_ms = 0, propose_ms = 0;  // wasted observations included
+  depth::Image<uint8_t> users;  // id of the person each pixel belongs to, 0 for none
+  FrameDecisions decisions;     // for every candidate
+  double segment_ms = 0, classify_ms = 0, propose_ms = 0;  // including rejected candidates
 };
 
-/// One frame's way from depth to people, each step with what the ones before it made: geometry,
-/// candidates, the forest's word on them, decisions, identities, user pixels, background. Frames of
-/// any size, in order of time. Works from a single frame; what is remembered makes it better.
+/// Detects and tracks people in one frame: scene geometry, candidates, classification by the
+/// forest, decisions, identities, user pixels, background. Frames may differ in size and come in
+/// order of time. A single frame is enough; `state` improves later ones.
 PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& classifier,
                            PeopleState& state, const PeopleOptions& options = {});
 
-/// Whether a person accepted at the first look is to be held against a body's surface.
-bool IsDoubtfulAtFirst(const Detection& detection, const InitiationOptions& options);
+/// Whether a person accepted in a single frame must be verified by the surface fit.
+bool NeedsSurfaceCheck(const Detection& detection, const InitiationOptions& options);
 
-/// How much of somebody a fitted body explains, shares in [0, 1] (recon::SurfaceFit).
+/// How much of a candidate the fitted body explains, shares in [0, 1] (recon::SurfaceFit).
 struct ExplainedShares {
   double explained = 0.0;
-  double score = 0.0;  // less what is seen through
+  double score = 0.0;  // less the share that the camera sees through
 };
 
-/// Whether a body that was accepted at the first look explains too little of what is seen;
-/// `beside_somebody`: about somebody else in the image there is no doubt.
-bool IsUnlikeABody(const ExplainedShares& fit, double person_score, bool beside_somebody,
+/// Whether the fitted body explains too little of a candidate that was accepted in a single frame.
+/// `beside_person`: the image contains another person without doubt.
+bool IsPoorBodyFit(const ExplainedShares& fit, double person_score, bool beside_person,
                    const InitiationOptions& options);
 
-/// Takes back that somebody accepted in this frame is a person: they have no track, no pixels.
-void Withdraw(int id, PeopleState& state, depth::Image<uint8_t>& users, FrameDecisions& decisions);
+/// Revokes the acceptance of a person in this frame: deletes their track and their user pixels.
+void WithdrawPerson(int id, PeopleState& state, depth::Image<uint8_t>& users,
+                    FrameDecisions& decisions);
 
 }  // namespace ossa::people

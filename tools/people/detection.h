@@ -10,46 +10,46 @@
 
 namespace ossa::people {
 
-/// What is known of a candidate's person from the frames before.
+/// What the track of earlier frames says of a candidate.
 struct TrackPrior {
-  std::vector<float> facing;    // of the model's contexts; empty: nothing is known
-  std::optional<double> score;  // mean of the last seconds
+  std::vector<float> facing;    // probability of each of the model's contexts; empty: unknown
+  std::optional<double> score;  // weighted mean over the frames
   int age = 0;                  // detections so far
   bool moved = false;           // since it was first seen
-  bool moving = false;          // lately
-  float full_m2 = 0;            // the most surface seen of it lately
+  bool moving = false;          // recently
+  float full_m2 = 0;            // largest recent visible surface
 };
 TrackPrior MakeTrackPrior(const Candidate& candidate, const std::vector<Track>& tracks,
                           double time_s, const TrackPriorOptions& options);
 
-/// Whose word counts on whether a detection is a person.
-enum class Judge {
+/// Which model decides whether a detection is a person.
+enum class Verifier {
   kForest,
-  kForestAndNetwork,  // the score is of both
-  kSurfaceFit,        // the forest is sure of it, the network is not
+  kForestAndNetwork,  // the score combines both
+  kSurfaceFit,        // the forest is confident, the network is not
 };
 
-/// A candidate with the forest's word on it; a person once a rule confirms it.
+/// A classified candidate; a person once a rule accepts it.
 struct Detection {
   Candidate candidate;
   ForestEvidence evidence;
   TrackPrior prior;
-  double score = 0.0;      // that it is a person: mean over the frames, [0, 1]
+  double score = 0.0;      // probability of being a person: weighted mean over the frames, [0, 1]
   int age = 1;             // detections of the track, this one included
-  bool is_piece = false;   // cut off around one of several heads
-  bool is_joined = false;  // of pieces that are nobody by themselves
-  Judge judge = Judge::kForest;
-  std::optional<recon::NetworkPose> pose{};  // what the network read in these pixels
-  Decision decision;                         // why it is a person, or none
-  // Of people: what tells them from others, and how they move.
+  bool is_piece = false;   // a segment around one of several heads
+  bool is_joined = false;  // merged from regions that are no person by themselves
+  Verifier verifier = Verifier::kForest;
+  std::optional<recon::NetworkPose> pose{};  // joints by the pose network, where it was applied
+  Decision decision;                         // why it was accepted or not
+  // Of people, for association: body measures and keypoints.
   FrameMeasures measures{};
   Keypoints keypoints_m;
 };
 
-/// The score is the forest's and the pose network's.
-bool IsJudgedByPose(const Detection& detection);
+/// Whether the score combines the forest and the pose network.
+bool IsVerifiedByPose(const Detection& detection);
 
-/// What a decision says of a detection.
+/// The decision record of a detection.
 Decision DescribeDetection(const Detection& detection, Rule rule, double needed_score);
 
 }  // namespace ossa::people

@@ -20,10 +20,10 @@ struct SingleFrame {
   std::vector<Candidate> candidates;
 };
 
-// Nothing is known from frames before.
-SingleFrame MeasureAlone(const DepthFrame& frame, const PeopleOptions& options) {
-  depth::SceneState nothing_before;
-  Scene scene = depth::MeasureScene(frame, nothing_before, options.scene);
+// Without the state of earlier frames.
+SingleFrame ProposeFromSingleFrame(const DepthFrame& frame, const PeopleOptions& options) {
+  depth::SceneState empty_state;
+  Scene scene = depth::MeasureScene(frame, empty_state, options.scene);
   auto proposed =
       ProposeCandidates(frame, scene, {}, options.association.reidentify, options.candidates);
   return {std::move(scene), std::move(proposed.candidates)};
@@ -43,12 +43,13 @@ FeatureCollector::FeatureCollector(const std::filesystem::path& model, bool from
 FeatureCollector::~FeatureCollector() = default;
 
 std::vector<CandidateFeatures> FeatureCollector::Collect(const depth::DepthFrame& frame) const {
-  constexpr double kAnyScore = -1;  // a score, so that joints are proposed for everything
+  constexpr double kAnyScore =
+      -1;  // a score below all, so that joints are proposed for every candidate
   const PeopleOptions& options = state_->options;
-  SingleFrame alone = MeasureAlone(frame, options);
+  SingleFrame single = ProposeFromSingleFrame(frame, options);
   const PersonClassifier classifier{state_->model, state_->targets};
   std::vector<CandidateFeatures> all;
-  for (Candidate& candidate : alone.candidates) {
+  for (Candidate& candidate : single.candidates) {
     const auto evidence =
         ClassifyCandidate(classifier, frame, candidate, {}, kAnyScore, options.evidence);
     all.push_back({std::move(candidate.pixels),
@@ -61,11 +62,11 @@ std::vector<CandidateFeatures> FeatureCollector::Collect(const depth::DepthFrame
 std::vector<CandidatePose> FeatureCollector::CollectPoses(const depth::DepthFrame& frame,
                                                           const recon::PoseNetwork& network) const {
   const PeopleOptions& options = state_->options;
-  SingleFrame alone = MeasureAlone(frame, options);
+  SingleFrame single = ProposeFromSingleFrame(frame, options);
   const PersonClassifier classifier{state_->model, state_->targets};
   std::vector<Decision> merged;
-  auto detections = ClassifyCandidates({classifier, frame, alone.scene, {}, options},
-                                       std::move(alone.candidates), merged);
+  auto detections = ClassifyCandidates({classifier, frame, single.scene, {}, options},
+                                       std::move(single.candidates), merged);
   std::vector<CandidatePose> all;
   for (Detection& detection : detections) {
     const double forest = detection.evidence.score;

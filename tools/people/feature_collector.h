@@ -14,14 +14,14 @@ class PoseNetwork;  // recon/refine/pose_network.h
 
 namespace ossa::people {
 
-/// What a candidate looks like to the forest: what people are told from furniture by.
+/// The features by which a candidate is classified as a person or another object.
 struct CandidateFeatures {
   std::vector<int32_t> pixels;   // v * width + u, ascending
   std::vector<double> features;  // one for each of PersonFeatureNames()
-  double score = 0.0;            // what the shipped weights make of them
+  double score = 0.0;            // by the shipped weights, [0, 1]
 };
 
-/// What a candidate looks like to the forest and to a pose network.
+/// The scores of a candidate by the forest and by a pose network.
 struct CandidatePose {
   std::vector<int32_t> pixels;  // v * width + u, ascending
   double forest_score = 0.0;    // [0, 1]
@@ -29,18 +29,18 @@ struct CandidatePose {
 };
 
 std::span<const std::string_view> PersonFeatureNames();
-/// So many of the first features are known before joints are proposed.
+/// The number of leading features that need no joint proposals.
 size_t CountSurfaceFeatures();
 
-/// Features of every candidate of single frames, as the tracker sees them: for fitting and judging
-/// the weights. `from_above`: by a tracker under the ceiling.
+/// Features of all candidates of single frames, as the tracker computes them: for fitting and
+/// evaluating the weights. `from_above`: for a camera under the ceiling.
 class FeatureCollector {
  public:
   /// Throws InputError naming the model where it cannot be read.
   explicit FeatureCollector(const std::filesystem::path& model, bool from_above = false);
   ~FeatureCollector();
   std::vector<CandidateFeatures> Collect(const depth::DepthFrame& frame) const;
-  /// Of the candidates that `network` would be asked about, pieces of a person merged.
+  /// Of the candidates to which the tracker would apply `network`, parts of one person merged.
   std::vector<CandidatePose> CollectPoses(const depth::DepthFrame& frame,
                                           const recon::PoseNetwork& network) const;
 

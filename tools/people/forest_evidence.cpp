@@ -13,17 +13,18 @@ namespace {
 int ChooseScale(const DepthFrame& frame, const Candidate& candidate,
                 const EvidenceOptions& options) {
   constexpr double kNearest_m =
-      0.3;  // sensor: by hand, nearer than any sees; against division by 0
+      0.3;  // sensor: by hand, nearer than any measures; against division by 0
   const double z_m = std::max(kNearest_m, static_cast<double>(candidate.region.mean_m.z()));
   int scale = std::clamp(static_cast<int>(options.sample_m * frame.camera.fx / z_m), 1, 8);
-  const size_t most = candidate.rejected ? options.max_rejected_pixels : options.max_pixels;
+  const size_t most =
+      candidate.recently_rejected ? options.max_rejected_pixels : options.max_pixels;
   while (candidate.pixels.size() / static_cast<size_t>(scale * scale) > most && scale < 16) {
     ++scale;
   }
   return scale;
 }
 
-// Heads that may be of several people: side by side, and not of very different size.
+// Heads that may belong to different people: side by side, and of similar size.
 std::vector<Eigen::Vector3d> SelectHeads(const std::vector<HeadCluster>& heads,
                                          const EvidenceOptions& options) {
   std::vector<Eigen::Vector3d> kept;

@@ -3,7 +3,7 @@
 #include "depth/scene/measure_scene.h"
 #include "depth/scene/regions.h"
 
-/// The geometry that people are found in goes by its own names here.
+/// The geometry types of depth/ under their own names.
 namespace ossa::people {
 
 using depth::DepthFrame;

@@ -18,17 +18,17 @@ class HeadFinder {
     for (const int cell : region.cells) member_[static_cast<size_t>(cell)] = 1;
   }
 
-  // Share of the disc that is filled times share of the upper ring that is free, times whether
-  // shoulders follow below.
+  // Filled share of the disc times free share of the upper ring times filled share of the
+  // shoulders' row.
   float Score(int cell) const {
     const int x = cell % grid_.width, y = cell / grid_.width;
     const float z = grid_.z(cell);
-    // All but one point of the disc.
+    // At most one point of the disc may be free.
     const int filled = CountFilled(x, y, z, options_.inner_radius_m, disc_, disc_.size(), 1);
     if (filled + 1 < static_cast<int>(disc_.size())) return 0;
     const int taken = CountFilled(x, y, z, options_.outer_radius_m, ring_,
                                   static_cast<size_t>(options_.max_ring), ring_.size());
-    if (taken > options_.max_ring || GoesOnAbove(x, y, z)) return 0;
+    if (taken > options_.max_ring || ContinuesAbove(x, y, z)) return 0;
     const float below = MeasureShoulders(x, y, z);
     return Share(filled, disc_) * (1 - Share(taken, ring_)) * below;
   }
@@ -55,7 +55,7 @@ class HeadFinder {
     return static_cast<float>(count) / static_cast<float>(around.size());
   }
 
-  // As lround: halves away from zero. That one is a call to a library.
+  // As lround, which is slow because it is not inlined: halves away from zero.
   static int Round(float x) {
     const int whole = static_cast<int>(x);
     const float rest = x - static_cast<float>(whole);
@@ -70,8 +70,8 @@ class HeadFinder {
            std::abs(grid_.z(cell) - z) < options_.max_depth_step_m;
   }
 
-  // How many points around (x, y) are filled; counting ends when more than `most_filled` are, or
-  // more than `most_free` are not.
+  // The number of filled points around (x, y); stops early above `most_filled` filled or
+  // `most_free` free ones, where the score is 0 anyway.
   int CountFilled(int x, int y, float z, float radius_m, std::span<const Direction> around,
                   size_t most_filled, size_t most_free) const {
     const float radius = grid_.CellsOf(radius_m, z);
@@ -85,8 +85,8 @@ class HeadFinder {
     return static_cast<int>(filled);
   }
 
-  // A chest or a hip is as free at its sides as a head, but the body goes on above it.
-  bool GoesOnAbove(int x, int y, float z) const {
+  // Rejects chests and hips: they are as free at their sides, but the body continues above.
+  bool ContinuesAbove(int x, int y, float z) const {
     int filled = 0;
     for (const float above_m : {0.20F, 0.26F, 0.33F, 0.40F, 0.48F}) {
       const float row = static_cast<float>(y) - grid_.CellsOf(above_m, z);
@@ -104,9 +104,8 @@ class HeadFinder {
     return filled > options_.max_above;
   }
 
-  // Share of the shoulders' row that is surface. A row under the image's edge counts half, for
-  // heads at the bottom, and so does one that something nearer hides altogether, for heads above
-  // the back of a seat.
+  // Filled share of the shoulders' row. A row below the image counts half, for heads at the lower
+  // border, and so does a completely occluded one, for heads above the back of a seat.
   float MeasureShoulders(int x, int y, float z) const {
     const float row = static_cast<float>(y) + grid_.CellsOf(options_.shoulders_below_m, z);
     if (row >= static_cast<float>(grid_.height)) return 0.5F;
@@ -147,14 +146,9 @@ std::vector<HeadBlob> FindHeads(const PointGrid& grid, const Region& region,
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const HeadBlob& a, const HeadBlob& b) { return a.score > b.score; });
-  std::vector<HeadBlob> heads;
-  for (const HeadBlob& blob : all) {
-    const bool near = std::any_of(heads.begin(), heads.end(), [&](const HeadBlob& head) {
-      return (head.position_m - blob.position_m).norm() < options.min_distance_m;
-    });
-    if (!near) heads.push_back(blob);
-  }
-  return heads;
+  return SuppressNearbyHeads(all, [&](const HeadBlob& a, const HeadBlob& b) {
+    return (b.position_m - a.position_m).norm() < options.min_distance_m;
+  });
 }
 
 }  // namespace ossa::people

@@ -11,7 +11,7 @@
 namespace ossa::people {
 namespace {
 
-// The number of the piece that each cell belongs to; -1 for none.
+// The index of the piece that each cell belongs to; -1 for none.
 std::vector<int> LabelCells(const PointGrid& grid, const std::vector<Region>& pieces) {
   std::vector<int> label(static_cast<size_t>(grid.cells()), -1);
   for (size_t i = 0; i < pieces.size(); ++i) {
@@ -20,22 +20,23 @@ std::vector<int> LabelCells(const PointGrid& grid, const std::vector<Region>& pi
   return label;
 }
 
-// Calls `meets` with the label of each other piece on the way from a cell until the room behind
-// both is seen. Symmetrical, so that two of the four ways are enough.
+// Calls `meets` with the label of each other piece along a direction until background behind both
+// is seen. Adjacency is symmetrical, so two of the four directions are enough.
 template <typename Meets>
-void WalkFrom(const PointGrid& grid, const std::vector<int>& label, int from,
-              const std::array<int, 2>& way, const JoinOptions& options, const Meets& meets) {
+void VisitAdjacent(const PointGrid& grid, const std::vector<int>& label, int from,
+                   const std::array<int, 2>& direction, const JoinOptions& options,
+                   const Meets& meets) {
   const int mine = label[static_cast<size_t>(from)];
   const float from_m = grid.z(from);
   const int reach = static_cast<int>(grid.CellsOf(options.occluder_m, from_m));
-  float farthest_m = 0;  // on the way
+  float farthest_m = 0;  // largest depth so far
   for (int i = 1; i <= reach; ++i) {
-    const int x = from % grid.width + i * way[0], y = from / grid.width + i * way[1];
+    const int x = from % grid.width + i * direction[0], y = from / grid.width + i * direction[1];
     if (!grid.Contains(x, y)) return;
     const int cell = grid.cell(x, y);
-    if (!grid.valid(cell)) continue;  // the shadow that the nearer one casts
+    if (!grid.valid(cell)) continue;  // the shadow that the nearer surface casts
     const int other = label[static_cast<size_t>(cell)];
-    if (other == mine) return;  // the way goes on from there
+    if (other == mine) return;  // that cell continues the search
     const float here_m = grid.z(cell);
     if (other >= 0 && std::abs(here_m - from_m) < options.step_m &&
         farthest_m < std::max(from_m, here_m) + options.farther_m) {
@@ -46,7 +47,7 @@ void WalkFrom(const PointGrid& grid, const std::vector<int>& label, int from,
   }
 }
 
-// Grows by the largest pieces first.
+// Tries the largest pieces first.
 Detection GrowFrom(const PointGrid& grid, const std::vector<Region>& pieces, size_t first,
                    const std::vector<std::vector<size_t>>& meeting, const ClassifyRegion& classify,
                    const JoinOptions& options, std::vector<uint8_t>& joined) {
@@ -60,7 +61,7 @@ Detection GrowFrom(const PointGrid& grid, const std::vector<Region>& pieces, siz
     if (tried[k] || body.area_m2 + pieces[k].area_m2 > options.person_m2) continue;
     tried[k] = 1;
     Detection more = classify(UniteRegions(grid, body, pieces[k]));
-    if (MeasureLikeness(more) <= MeasureLikeness(whole)) continue;
+    if (GetPersonScore(more) <= GetPersonScore(whole)) continue;
     whole = std::move(more);
     joined[k] = 1;
     if (pieces[k].area_m2 >= options.first_m2) joined[first] = 1;
@@ -71,13 +72,13 @@ Detection GrowFrom(const PointGrid& grid, const std::vector<Region>& pieces, siz
 
 }  // namespace
 
-double MeasureLikeness(const Detection& detection) {
+double GetPersonScore(const Detection& detection) {
   const double score = detection.evidence.score;
-  if (detection.judge != Judge::kSurfaceFit || !detection.pose) return score;
+  if (detection.verifier != Verifier::kSurfaceFit || !detection.pose) return score;
   return ComputeScoreWithPose(score, MeasureCertainty(*detection.pose));
 }
 
-std::vector<std::vector<size_t>> FindPiecesThatMeet(const PointGrid& grid,
+std::vector<std::vector<size_t>> FindAdjacentPieces(const PointGrid& grid,
                                                     const std::vector<Region>& pieces,
                                                     const JoinOptions& options) {
   const std::vector<int> label = LabelCells(grid, pieces);
@@ -88,8 +89,8 @@ std::vector<std::vector<size_t>> FindPiecesThatMeet(const PointGrid& grid,
   };
   for (const Region& piece : pieces) {
     for (const int cell : piece.cells) {
-      WalkFrom(grid, label, cell, {1, 0}, options, meets);
-      WalkFrom(grid, label, cell, {0, 1}, options, meets);
+      VisitAdjacent(grid, label, cell, {1, 0}, options, meets);
+      VisitAdjacent(grid, label, cell, {0, 1}, options, meets);
     }
   }
   for (std::vector<size_t>& others : meeting) {
@@ -99,21 +100,22 @@ std::vector<std::vector<size_t>> FindPiecesThatMeet(const PointGrid& grid,
   return meeting;
 }
 
-bool GoesOnBelow(const PointGrid& grid, const Region& region, const JoinOptions& options) {
+bool IsCutByLowerBorder(const PointGrid& grid, const Region& region, const JoinOptions& options) {
   const int lowest = (grid.height - options.border_cells) * grid.width;
   return !region.cells.empty() && region.cells.back() >= lowest;
 }
 
-std::vector<Detection> GrowOverEdges(const PointGrid& grid, const std::vector<Region>& pieces,
-                                     const ClassifyRegion& classify,
-                                     const CandidateOptions& options) {
-  const auto meeting = FindPiecesThatMeet(grid, pieces, options.join);
+std::vector<Detection> GrowAcrossDepthEdges(const PointGrid& grid,
+                                            const std::vector<Region>& pieces,
+                                            const ClassifyRegion& classify,
+                                            const CandidateOptions& options) {
+  const auto meeting = FindAdjacentPieces(grid, pieces, options.join);
   std::vector<uint8_t> joined(pieces.size(), 0);
   std::vector<Detection> wholes;
   for (size_t i = 0; i < pieces.size(); ++i) {
     if (joined[i] || pieces[i].area_m2 < options.join.first_m2) continue;
     const bool is_cut_off =
-        !IsPersonSized(pieces[i], options) && GoesOnBelow(grid, pieces[i], options.join);
+        !IsPersonSized(pieces[i], options) && IsCutByLowerBorder(grid, pieces[i], options.join);
     if (meeting[i].empty() && !is_cut_off) continue;
     Detection whole = GrowFrom(grid, pieces, i, meeting, classify, options.join, joined);
     if (joined[i] || is_cut_off) wholes.push_back(std::move(whole));

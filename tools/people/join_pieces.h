@@ -6,31 +6,31 @@
 #include "tools/people/geometry.h"
 #include "tools/people/options.h"
 
-// One body whose middle an own arm, or something held before it, occludes shows as several regions.
+// Merging the regions of one person whose middle an own arm or a held object occludes.
 namespace ossa::people {
 
-/// Which pieces meet in the image, over an edge of depth: side by side, or with nothing but nearer
-/// surface, or the shadow that it casts, on a short straight way between them. Symmetrical: for
-/// each piece the others, ascending.
-std::vector<std::vector<size_t>> FindPiecesThatMeet(const PointGrid& grid,
+/// The pairs of pieces that are adjacent in the image across a depth edge: side by side, or with
+/// only nearer surface, or its shadow, on a short horizontal or vertical line between them.
+/// Symmetrical: for each piece the others, ascending.
+std::vector<std::vector<size_t>> FindAdjacentPieces(const PointGrid& grid,
                                                     const std::vector<Region>& pieces,
                                                     const JoinOptions& options);
 
-/// A region as a person, with the word of all who judge that; `Detection::evidence` has the score.
+/// Classifies a region by all models; `Detection::evidence` has the score.
 using ClassifyRegion = std::function<Detection(Region)>;
 
-/// How much it looks like a person by forest and network, also where the surface fit decides.
-double MeasureLikeness(const Detection& detection);
+/// The score by forest and network, also where the surface fit decides.
+double GetPersonScore(const Detection& detection);
 
-/// Whether the lower border of the image cuts a region off.
-bool GoesOnBelow(const PointGrid& grid, const Region& region, const JoinOptions& options);
+/// Whether the lower image border cuts a region off.
+bool IsCutByLowerBorder(const PointGrid& grid, const Region& region, const JoinOptions& options);
 
-/// What each piece grows to by those that meet it, as long as one more makes it look more like a
-/// person; by the largest first. A piece that became part of another's whole starts none. Of those
-/// that gain by no other only what is too small for a person and goes on below the image is a
-/// whole.
-std::vector<Detection> GrowOverEdges(const PointGrid& grid, const std::vector<Region>& pieces,
-                                     const ClassifyRegion& classify,
-                                     const CandidateOptions& options);
+/// Grows each piece by adjacent ones, the largest first, while that raises the score. A piece that
+/// was added to another starts none. A piece that grows by no other is returned only if it is too
+/// small for a person and cut off by the lower image border.
+std::vector<Detection> GrowAcrossDepthEdges(const PointGrid& grid,
+                                            const std::vector<Region>& pieces,
+                                            const ClassifyRegion& classify,
+                                            const CandidateOptions& options);
 
 }  // namespace ossa::people

@@ -7,11 +7,10 @@
 
 namespace ossa::people {
 
-/// Which of a forest's targets is which joint, in SDK order.
+/// The index of the forest's target of each joint, in SDK order.
 using JointTargets = recon::JointArray<int>;
 
-/// Throws InputError that names the model where it lacks a joint, or knows other classes than parts
-/// of the body.
+/// Throws InputError that names the model if it lacks a joint or has classes other than body parts.
 JointTargets FindJointTargets(const forest::ForestModel& model, const std::string& model_name);
 
 }  // namespace ossa::people

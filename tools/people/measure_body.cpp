@@ -7,16 +7,17 @@ namespace {
 
 using recon::Joint;
 
-// The best proposal for a joint, if the forest is sure enough of it for a measure or a keypoint.
-const Eigen::Vector3d* FindSureJoint(const ForestEvidence& evidence, const JointTargets& targets,
-                                     Joint joint, double min_confidence) {
+// The best proposal for a joint, if its confidence is at least `min_confidence`; else null.
+const Eigen::Vector3d* FindConfidentJoint(const ForestEvidence& evidence,
+                                          const JointTargets& targets, Joint joint,
+                                          double min_confidence) {
   const auto target = static_cast<size_t>(targets[recon::Index(joint)]);
   const auto& modes = evidence.proposals.at(target);
   return modes.empty() || modes.front().confidence < min_confidence ? nullptr
                                                                     : &modes.front().position_m;
 }
 
-// Between two joints of the standard body at rest.
+// Distance of two joints of the standard body at rest.
 double ComputeAverageDistance_m(Joint a, Joint b) {
   static const recon::Posture body = recon::StandardPosture(recon::RigPose{});
   const auto at = [](Joint joint) { return body.position_m[recon::Index(joint)]; };
@@ -29,7 +30,7 @@ FrameMeasures MeasureBody(const ForestEvidence& evidence, const JointTargets& ta
                           const std::optional<FloorPlane>& floor, const MeasureOptions& options) {
   FrameMeasures body;
   const auto seen = [&](Joint joint) {
-    return FindSureJoint(evidence, targets, joint, options.min_confidence);
+    return FindConfidentJoint(evidence, targets, joint, options.min_confidence);
   };
   const auto distance_m = [&](Joint a, Joint b) -> std::optional<float> {
     if (seen(a) == nullptr || seen(b) == nullptr) return std::nullopt;
@@ -39,7 +40,7 @@ FrameMeasures MeasureBody(const ForestEvidence& evidence, const JointTargets& ta
       return std::nullopt;
     return static_cast<float>(length_m);
   };
-  // Of two limbs whichever is seen.
+  // The left limb, or the right one if that is not seen.
   const auto either_m = [&](Joint a, Joint b, Joint other_a, Joint other_b) {
     const auto first_m = distance_m(a, b);
     return first_m ? first_m : distance_m(other_a, other_b);
@@ -65,7 +66,7 @@ Keypoints SelectKeypoints(const ForestEvidence& evidence, const JointTargets& ta
   Keypoints keypoints_m(recon::kJointCount);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const Eigen::Vector3d* seen_m =
-        FindSureJoint(evidence, targets, static_cast<Joint>(j), options.min_confidence);
+        FindConfidentJoint(evidence, targets, static_cast<Joint>(j), options.min_confidence);
     if (seen_m != nullptr) keypoints_m[j] = seen_m->cast<float>();
   }
   return keypoints_m;

@@ -7,12 +7,12 @@
 
 namespace ossa::people {
 
-/// Measures of a body in one frame: between joints that the forest is sure of.
+/// The body measures of one frame, between joints with confident proposals.
 FrameMeasures MeasureBody(const ForestEvidence& evidence, const JointTargets& targets,
                           const std::optional<FloorPlane>& floor,
                           const MeasureOptions& options = {});
 
-/// The joints that the forest is sure of, in their order.
+/// The joints with confident proposals, in SDK order.
 Keypoints SelectKeypoints(const ForestEvidence& evidence, const JointTargets& targets,
                           const MeasureOptions& options = {});
 

@@ -11,9 +11,9 @@
 namespace ossa::people {
 namespace {
 
-// The shortest ways between the cells of a small piece and of each big one, whose number `label`
-// has, metres; only nearby cells of the image are compared, and a piece behind the other does not
-// reach around it.
+// The shortest distances, metres, between the cells of a small region and each large one, whose
+// index `label` has. Only cells nearby in the image are compared, so that a region behind does not
+// reach around.
 std::vector<float> MeasureGaps_m(const PointGrid& grid, const Region& small,
                                  const std::vector<int>& label, size_t big,
                                  const MergeOptions& options) {
@@ -41,10 +41,9 @@ std::vector<float> MeasureGaps_m(const PointGrid& grid, const Region& small,
   return nearest_m2;
 }
 
-// Somebody comes out from behind somebody else in pieces: a piece that was nobody's is the track's
-// of which a good part is still hidden, if it is where the track is expected, or a stride from
-// there and only nearer surface lies between, and not more than the track lacks. tracks.size() for
-// none.
+// The partly occluded track that an unowned region belongs to: the region is where the track is
+// expected, or a stride from there with only occluders between, and not larger than the surface
+// that the track lacks. tracks.size() for none.
 size_t FindTrackBehind(const PointGrid& grid, const Region& piece, const std::vector<Region>& owned,
                        const std::vector<int>& home, const std::vector<Track>& tracks,
                        double time_s, const CandidateOptions& options) {
@@ -61,7 +60,7 @@ size_t FindTrackBehind(const PointGrid& grid, const Region& piece, const std::ve
     const bool expected =
         std::abs(off.x()) < merge.expected_aside_m && std::abs(off.z()) < merge.expected_deep_m;
     if (expected && lacks_it(tracks[t].full_m2)) return t;
-    // Who was half hidden all along has more than was ever seen.
+    // A track that was always partly occluded may be larger than its largest recent surface.
     const Eigen::Vector2f on_floor = grid.OnFloor(off);
     const bool a_stride_off =
         std::abs(on_floor.x()) < merge.stride_m && std::abs(on_floor.y()) < merge.expected_deep_m;

@@ -10,9 +10,9 @@
 namespace ossa::people {
 namespace {
 
-// On the straight way in the image from one cell to the other is mostly what is nearer than both,
-// and nowhere the room behind them.
-bool IsWayOccluded(const PointGrid& grid, int from, int to, const OcclusionOptions& options) {
+// Whether enough of the image line from one cell to the other is nearer than both, and no cell
+// shows the room behind them.
+bool IsLineOccluded(const PointGrid& grid, int from, int to, const OcclusionOptions& options) {
   const float near_m = std::min(grid.z(from), grid.z(to)) - options.nearer_m;
   const float far_m = std::max(grid.z(from), grid.z(to)) + options.farther_m;
   const int dx = to % grid.width - from % grid.width, dy = to / grid.width - from / grid.width;
@@ -21,16 +21,16 @@ bool IsWayOccluded(const PointGrid& grid, int from, int to, const OcclusionOptio
   for (int i = 1; i < steps; ++i) {
     const int cell =
         grid.cell(from % grid.width + dx * i / steps, from / grid.width + dy * i / steps);
-    if (!grid.valid(cell)) continue;  // the shadow that the nearer thing casts
+    if (!grid.valid(cell)) continue;  // the shadow that the nearer surface casts
     if (grid.z(cell) > far_m) return false;
     nearer += grid.z(cell) < near_m ? 1 : 0;
   }
   return static_cast<float>(nearer) > options.occluded_share * static_cast<float>(steps);
 }
 
-// Pieces at both sides of something nearer that hides the middle of one person.
-bool IsOneBeside(const PointGrid& grid, const Region& a, const Region& b,
-                 const OcclusionOptions& options) {
+// Regions at both sides of an occluder.
+bool AreBesideOccluder(const PointGrid& grid, const Region& a, const Region& b,
+                       const OcclusionOptions& options) {
   const Eigen::Vector2f apart_m = grid.OnFloor(a.mean_m - b.mean_m);
   if (std::abs(apart_m.x()) > options.beside_aside_m ||
       std::abs(apart_m.y()) > options.beside_deep_m)
@@ -38,7 +38,7 @@ bool IsOneBeside(const PointGrid& grid, const Region& a, const Region& b,
   return IsOccludedBetween(grid, a, b, options);
 }
 
-// Legs of somebody at a table: broader than a table's own, and about below the body.
+// Legs of a person at a table: wider than the table's legs, and about below the body.
 bool AreLegsBelow(const PointGrid& grid, const Region& body, const Region& legs,
                   const OcclusionOptions& options) {
   if (legs.area_m2 < options.min_legs_m2 || legs.area_m2 > options.max_legs_m2 ||
@@ -55,7 +55,7 @@ bool AreLegsBelow(const PointGrid& grid, const Region& body, const Region& legs,
 
 }  // namespace
 
-// From the cell of one that is nearest to the other's middle.
+// From the cell that is nearest to the other region's centroid.
 bool IsOccludedBetween(const PointGrid& grid, const Region& a, const Region& b,
                        const OcclusionOptions& options) {
   const auto nearest = [&](const Region& region, const Eigen::Vector3f& to_m) {
@@ -64,11 +64,11 @@ bool IsOccludedBetween(const PointGrid& grid, const Region& a, const Region& b,
     });
   };
   const int from = nearest(a, b.mean_m);
-  return IsWayOccluded(grid, from, nearest(b, grid.at(from)), options);
+  return IsLineOccluded(grid, from, nearest(b, grid.at(from)), options);
 }
 
-bool IsOneAbove(const PointGrid& grid, const Region& a, const Region& b,
-                const OcclusionOptions& options) {
+bool IsOneAboveOther(const PointGrid& grid, const Region& a, const Region& b,
+                     const OcclusionOptions& options) {
   const Eigen::Vector2f apart_m = grid.OnFloor(a.mean_m - b.mean_m);
   if (std::abs(apart_m.x()) > options.above_aside_m || std::abs(apart_m.y()) > options.above_deep_m)
     return false;
@@ -84,15 +84,15 @@ std::vector<Region> MergeBesideOccluder(const PointGrid& grid, std::vector<Regio
   std::vector<Region> others, pieces;
   for (Region& region : regions) {
     const bool is_new =
-        MeasureShare(region, foreground) > kMostly && FindMainOwner(region, owner, tracks) < 0;
+        MeasureShare(region, foreground) > kMajority && FindMainOwner(region, owner, tracks) < 0;
     (is_new ? pieces : others).push_back(std::move(region));
   }
   for (size_t i = 0; i < pieces.size(); ++i) {
     for (size_t k = i + 1; k < pieces.size(); ++k) {
       const Region &a = pieces[i], &b = pieces[k];
-      const bool one_person =
-          a.area_m2 + b.area_m2 <= options.occlusion.person_m2 &&
-          (IsOneBeside(grid, a, b, options.occlusion) || IsOneAbove(grid, a, b, options.occlusion));
+      const bool one_person = a.area_m2 + b.area_m2 <= options.occlusion.person_m2 &&
+                              (AreBesideOccluder(grid, a, b, options.occlusion) ||
+                               IsOneAboveOther(grid, a, b, options.occlusion));
       if (!one_person) continue;
       pieces[i] = UniteRegions(grid, pieces[i], pieces[k]);
       pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(k));
@@ -108,7 +108,7 @@ std::vector<Region> MergeBelowOccluder(const PointGrid& grid, std::vector<Region
                                        size_t tracks, std::vector<int>& owner,
                                        const OcclusionOptions& options) {
   for (size_t i = 0; i < regions.size(); ++i) {
-    if (regions[i].cells.empty()) continue;  // somebody's legs by now
+    if (regions[i].cells.empty()) continue;  // already merged as legs
     Region whole = regions[i];
     for (size_t k = 0; k < regions.size(); ++k) {
       Region& legs = regions[k];

@@ -15,7 +15,7 @@ float HeightOf(const PointGrid& grid, const FloorPlane& floor, int cell) {
 // Shares of the points of a circle around a cell, [0, 1].
 struct Circle {
   float level = 0;  // at the cell's height
-  float lower = 0;  // a head's height below it, or not of the region
+  float lower = 0;  // lower by the height of a neck, or not of the region
 };
 
 class TopFinder {
@@ -26,21 +26,20 @@ class TopFinder {
     for (const int cell : region.cells) height_m_[Index(cell)] = HeightOf(grid, floor, cell);
   }
 
-  // Filled share of the disc times share of the ring that is lower; 0 of what is too low to be
-  // somebody's head.
+  // Level share of the disc times lower share of the ring; 0 outside the heights of heads.
   float Score(int cell) const {
     const float height_m = height_m_[Index(cell)];
     if (height_m < options_.min_head_m || height_m > options_.max_head_m) return 0;
-    const float disc = Look(cell, options_.inner_radius_m).level;
+    const float disc = SampleCircle(cell, options_.inner_radius_m).level;
     if (disc < options_.min_disc) return 0;
-    return disc * Look(cell, options_.outer_radius_m).lower;
+    return disc * SampleCircle(cell, options_.outer_radius_m).lower;
   }
   float height_m(int cell) const { return height_m_[Index(cell)]; }
 
  private:
   static size_t Index(int cell) { return static_cast<size_t>(cell); }
 
-  Circle Look(int cell, float radius_m) const {
+  Circle SampleCircle(int cell, float radius_m) const {
     constexpr int kPoints = 16;  // by hand: 2.7 to 7.9 cm apart, as cells are
     const float top_m = height_m_[Index(cell)];
     const float radius = grid_.CellsOf(radius_m, grid_.z(cell));
@@ -60,7 +59,7 @@ class TopFinder {
 
   const PointGrid& grid_;
   const OverheadOptions& options_;
-  std::vector<float> height_m_;  // over the floor; 0 of what is not of the region
+  std::vector<float> height_m_;  // above the floor; 0 outside the region
 };
 
 }  // namespace
@@ -104,18 +103,13 @@ std::vector<HeadBlob> FindHeadsFromAbove(const PointGrid& grid, const FloorPlane
     const float score = tops.Score(cell);
     if (score >= options.min_score) all.push_back({cell, grid.at(cell), score});
   }
-  // Of equals the higher one: the middle of a head is its top.
+  // Of equal scores the highest cell: the centre of a head is its top.
   std::stable_sort(all.begin(), all.end(), [&](const HeadBlob& a, const HeadBlob& b) {
     return a.score != b.score ? a.score > b.score : tops.height_m(a.cell) > tops.height_m(b.cell);
   });
-  std::vector<HeadBlob> heads;
-  for (const HeadBlob& blob : all) {
-    const bool near = std::any_of(heads.begin(), heads.end(), [&](const HeadBlob& head) {
-      return grid.OnFloor(head.position_m - blob.position_m).norm() < options.min_distance_m;
-    });
-    if (!near) heads.push_back(blob);
-  }
-  return heads;
+  return SuppressNearbyHeads(all, [&](const HeadBlob& a, const HeadBlob& b) {
+    return grid.OnFloor(b.position_m - a.position_m).norm() < options.min_distance_m;
+  });
 }
 
 Region KeepWithinReach(const PointGrid& grid, const Region& region, const HeadBlob& head,

@@ -17,8 +17,8 @@ using forest::Classification;
 constexpr int kLastHeadLabel = 4;
 constexpr int kFirstTorsoLabel = 18, kLastTorsoLabel = 21;
 
-// Logistic regressions of "is a person" over the features and their products, written by
-// `ossa experiment person-classifier`: kSurfaceWeights, kPersonWeights and, of a camera under the
+// Logistic regressions of "is a person" over the features and their products, written by `ossa
+// experiment person-classifier`: kSurfaceWeights, kPersonWeights and, for a camera under the
 // ceiling, the same FromAbove.
 #include "tools/people/person_classifier_weights.inc"
 #include "tools/people/person_classifier_weights_from_above.inc"
@@ -62,28 +62,29 @@ std::vector<Cluster> CollectHeadClusters(const depth::DepthFrame& frame,
   return clusters;
 }
 
-// Backs are easily painted as fronts, left for right: for being a person it is the same.
-uint8_t Folded(uint8_t label) { return std::min(label, recon::kMirroredPart[label]); }
+// Backs are easily classified as fronts, with left and right exchanged; for detection this does not
+// matter.
+uint8_t FoldSides(uint8_t label) { return std::min(label, recon::kMirroredPart[label]); }
 
-// Of all pairs of neighbouring samples, the share with one label.
+// The share of neighbouring samples that have the same label.
 double MeasureCoherence(const Classification& seen, int width) {
   size_t pairs = 0, same = 0, above = 0;
   for (size_t i = 0; i < seen.pixel.size(); ++i) {
     if (i > 0 && seen.pixel[i] == seen.pixel[i - 1] + 1) {
       ++pairs;
-      same += Folded(seen.label[i]) == Folded(seen.label[i - 1]) ? 1 : 0;
+      same += FoldSides(seen.label[i]) == FoldSides(seen.label[i - 1]) ? 1 : 0;
     }
     while (seen.pixel[above] < seen.pixel[i] - width) ++above;
     if (seen.pixel[above] == seen.pixel[i] - width) {
       ++pairs;
-      same += Folded(seen.label[i]) == Folded(seen.label[above]) ? 1 : 0;
+      same += FoldSides(seen.label[i]) == FoldSides(seen.label[above]) ? 1 : 0;
     }
   }
   return pairs == 0 ? 0.0 : static_cast<double>(same) / static_cast<double>(pairs);
 }
 
-// Parts hang together on a body and are strewn about on what is none: mean over the samples of
-// exp(-(d / 15 cm)^2), d the distance from the middle of all samples with the same label.
+// Parts are compact on a body and scattered on other objects: mean over the samples of exp(-(d / 15
+// cm)^2), d the distance from the centroid of all samples with the same label.
 double MeasureCompactness(const depth::DepthFrame& frame, const Classification& seen) {
   std::array<Cluster, recon::kLabelCount> parts;
   for (size_t i = 0; i < seen.pixel.size(); ++i) {
@@ -100,8 +101,8 @@ double MeasureCompactness(const depth::DepthFrame& frame, const Classification& 
   return seen.pixel.empty() ? 0.0 : near / static_cast<double>(seen.pixel.size());
 }
 
-// Which parts meet, left ones standing for both sides (labels of parts.h).
-bool Meet(uint8_t a, uint8_t b) {
+// Whether two parts are adjacent on a body; left ones stand for both sides (labels of parts.h).
+bool AreAdjacentParts(uint8_t a, uint8_t b) {
   constexpr std::array<std::array<uint8_t, 2>, 20> kPairs = {
       {{1, 3},   {1, 5},   {3, 5},   {3, 6},   {5, 6},   {5, 18},  {6, 8},
        {6, 18},  {8, 18},  {8, 12},  {10, 12}, {10, 14}, {14, 16}, {18, 20},
@@ -110,21 +111,22 @@ bool Meet(uint8_t a, uint8_t b) {
   return std::find(kPairs.begin(), kPairs.end(), pair) != kPairs.end();
 }
 
-// Only borders on one surface count: a hand before the chest borders on anything.
+// Only borders within one surface count: in the image a hand in front of the chest borders on any
+// part.
 double MeasureNeighbourShare(const depth::DepthFrame& frame, const Classification& seen) {
   constexpr int kOneSurface_mm = 60;  // by hand; part of the classifier, which was learned with it
   const depth::DepthView view = frame.view();
   double borders = 0, meeting = 0;
   for (size_t i = 1; i < seen.pixel.size(); ++i) {
-    const uint8_t a = Folded(seen.label[i]), b = Folded(seen.label[i - 1]);
+    const uint8_t a = FoldSides(seen.label[i]), b = FoldSides(seen.label[i - 1]);
     if (seen.pixel[i] != seen.pixel[i - 1] + 1 || a == b) continue;
     const int jump_mm =
         static_cast<int>(view.at(seen.pixel[i])) - static_cast<int>(view.at(seen.pixel[i - 1]));
     if (std::abs(jump_mm) > kOneSurface_mm) continue;
     borders += 1;
-    meeting += Meet(a, b) ? 1 : 0;
+    meeting += AreAdjacentParts(a, b) ? 1 : 0;
   }
-  // One border more of each kind: little evidence stays in the middle.
+  // One more border of each kind keeps the share near one half where there are few.
   return (meeting + 1) / (borders + 2);
 }
 
@@ -241,7 +243,8 @@ void AddProposalFeatures(const std::vector<std::vector<forest::Proposal>>& propo
     const auto& modes = modes_of(recon::Index(joint));
     core += BestConfidence(modes);
     if (joint == Joint::kShoulderCenter || modes.empty() || centre.empty()) continue;
-    // The bone from spine to shoulder centre is the centre's, the others' are their own.
+    // The bone from spine to shoulder centre is stored with the latter, the others with the outer
+    // joint.
     const auto bone = recon::Index(joint == Joint::kSpine ? Joint::kShoulderCenter : joint);
     const double length_m = (modes.front().position_m - centre.front().position_m).norm();
     bones += std::exp(-std::pow((length_m - average_m[bone]) / 0.07, 2));

@@ -4,17 +4,16 @@
 #include "tools/people/geometry.h"
 #include "tools/people/options.h"
 
-// The back of a seat, a box, a screen: things that somebody is behind, and that hang together with
-// what shows of them.
+// Planar occluders: seat backs, boxes and screens, which are connected with the visible parts of
+// the people behind them.
 namespace ossa::people {
 
-/// Where a region is all but one plane, that plane; nothing where it is not. `shape` is of the same
-/// grid.
+/// The plane of a nearly planar region; nothing for others. `shape` is of the same grid.
 std::optional<FlatPlane> FitWholePlane(const Region& region, const RoomShape& shape,
                                        const PlanarOccluderOptions& options = {});
 
-/// Whether a region is clearly behind a plane, on average: no limb of somebody whose flat side that
-/// is.
+/// Whether a region is clearly behind a plane, on average, and so cannot be a limb of a person with
+/// that flat side.
 bool StandsBehind(const PointGrid& grid, const Region& region, const FlatPlane& plane,
                   const PlanarOccluderOptions& options = {});
 

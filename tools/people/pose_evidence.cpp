@@ -11,8 +11,7 @@
 namespace ossa::people {
 namespace {
 
-// Constant, and what a unit of the forest's log-odds and of the network's certainty add, written by
-// `ossa experiment person-classifier`: kPoseWeights.
+// Weights of the terms of PoseTerms, written by `ossa experiment person-classifier`: kPoseWeights.
 #include "tools/people/pose_weights.inc"
 
 }  // namespace
@@ -37,7 +36,7 @@ double MeasureCertainty(const recon::NetworkPose& pose) {
 }
 
 std::array<double, 3> PoseTerms(double forest_score, double certainty) {
-  // A score, by hand: of real furniture, too, the forest may be all but certain.
+  // A score, by hand: on real furniture, too, the forest may be nearly certain.
   constexpr double kSurest = 0.95;
   const double score = std::clamp(forest_score, 1.0 - kSurest, kSurest);
   return {1.0, std::log(score / (1.0 - score)), certainty};

@@ -7,15 +7,15 @@
 
 namespace ossa::people {
 
-/// The candidates of a frame, largest first, and what geometry excluded.
+/// The candidates of a frame, largest first, and the regions that geometry excluded.
 struct Candidates {
   std::vector<Candidate> candidates;
-  std::vector<Decision> excluded;  // kTooSmall; of large surfaces kFurniture, kBackground on demand
+  std::vector<Decision> excluded;  // kTooSmall; with `trace_surfaces` kFurniture and kBackground
 };
 
-/// What of a frame may be people, by geometry alone; the tracks of the frames before make it
-/// better. Nothing is claimed to be a person. `trace_surfaces`: `excluded` also holds the surfaces
-/// that are not looked at, in pieces large enough for a person.
+/// Proposes segments that may be people, by geometry and the tracks of earlier frames, with high
+/// recall and low precision. `trace_surfaces`: `excluded` also holds ignored surfaces, in regions
+/// large enough for a person.
 Candidates ProposeCandidates(const DepthFrame& frame, const Scene& scene,
                              const std::vector<Track>& tracks, const ReidentifyOptions& reidentify,
                              const CandidateOptions& options, bool trace_surfaces = false);

@@ -13,7 +13,7 @@
 namespace ossa::people {
 namespace {
 
-// The seed a head is nearest to, if it could be the same person's; -1 for none.
+// The nearest seed to a head, if they may be of the same person; -1 for none.
 int FindHeadOwner(const PointGrid& grid, const HeadBlob& head, std::span<const Seed> seeds,
                   float max_step_m) {
   int mine = -1;
@@ -27,8 +27,8 @@ int FindHeadOwner(const PointGrid& grid, const HeadBlob& head, std::span<const S
   return mine;
 }
 
-// One person alone needs no cut, unless much more hangs on than a person has, or than this one had
-// a frame ago.
+// A region with one person is not split, unless its surface is too large for one, or it has too
+// many background cells.
 bool IsOnePerson(const Region& region, const Seed& seed, const SeedOptions& options) {
   if (region.area_m2 > options.one_person_m2) return false;
   if (seed.background == nullptr) return true;
@@ -37,23 +37,22 @@ bool IsOnePerson(const Region& region, const Seed& seed, const SeedOptions& opti
          }) < options.one_person_background_cells;
 }
 
-// A way over the surface with one step more; where it is not continuous, and sideways, it is
-// longer.
+// The length of a path with one more step; depth discontinuities and horizontal steps add to it.
 float AddStep_m(const PointGrid& grid, float way_m, int from, int to, const SeedOptions& options) {
   Eigen::Vector3f step_m = grid.at(to) - grid.at(from);
   step_m.x() *= options.sideways;
   return way_m + step_m.norm() + (Continuous(grid, from, to) ? 0.0F : options.jump_cost_m);
 }
 
-// Whether what grows from a seed may reach a cell that is so far away over the surface.
+// Whether a seed may grow to a cell at this distance over the surface.
 bool MayReach(const Seed& seed, int cell, float way_m, const SeedOptions& options) {
   if (way_m > seed.reach_m) return false;
   const bool enters = seed.background != nullptr && (*seed.background)[static_cast<size_t>(cell)];
   return !enters || way_m <= options.background_rim_m;
 }
 
-// Which seed each of the region's cells is joined to by the shortest way over the surface. Dijkstra
-// 1959, from all seeds at once.
+// The seed with the shortest path over the surface to each cell of a region. Dijkstra 1959, from
+// all seeds at once.
 class SeedGrowth {
  public:
   SeedGrowth(const PointGrid& grid, const Region& region, const std::vector<Seed>& seeds,
@@ -67,8 +66,8 @@ class SeedGrowth {
     for (const int cell : region.cells) member_[static_cast<size_t>(cell)] = 1;
   }
 
-  // Of each cell the seed as an index; -1 beyond reach, and elsewhere. Seeds are most of what they
-  // grow to: of their own cells, which the queue would give in ascending order, none needs it.
+  // The seed of each cell as an index; -1 beyond reach, and outside the region. Most cells of the
+  // result are seed cells; these bypass the queue, which would give them in ascending order.
   std::vector<int> Run() {
     const std::vector<int> own = EnterSeeds();
     for (const int cell : own) GrowFrom(cell);
@@ -104,7 +103,7 @@ class SeedGrowth {
       if (!grid_.Contains(x + step[0], y + step[1])) continue;
       const int next = grid_.cell(x + step[0], y + step[1]);
       float& way_m = way_m_[static_cast<size_t>(next)];
-      // No way on is shorter than the way here, which most neighbours are nearer than.
+      // No longer path can be shorter; this skips most neighbours.
       if (!member_[static_cast<size_t>(next)] || way_m <= done_m) continue;
       const float reached_m = AddStep_m(grid_, done_m, cell, next, options_);
       if (reached_m >= way_m) continue;
@@ -162,7 +161,7 @@ bool IsForegroundPersonSized(const Region& region, const std::vector<uint8_t>& f
   CandidateOptions less = options;
   less.min_area_m2 = options.min_foreground_area_m2;
   less.min_height_m = options.min_foreground_height_m;
-  return IsPersonSized(region, less) && MeasureShare(region, foreground) > kMostly;
+  return IsPersonSized(region, less) && MeasureShare(region, foreground) > kMajority;
 }
 
 std::vector<Seed> FindSeeds(const PointGrid& grid, const Region& region,
@@ -179,8 +178,8 @@ std::vector<Seed> FindSeeds(const PointGrid& grid, const Region& region,
   for (const HeadBlob& head : heads) {
     const int mine =
         FindHeadOwner(grid, head, std::span(seeds).first(known), options.seeds.owner_step_m);
-    // A person has one head, and it moves: the best head at a track is that track's. More heads are
-    // other people's, unless they lie within the track as it was.
+    // A person has one head, and it moves: the best head at a track belongs to that track. Others
+    // belong to other people, unless they lie within the track's cells.
     std::vector<int> seed = CollectHeadCells(grid, region, head.position_m, options.seeds);
     if (mine >= 0 && !has_head[static_cast<size_t>(mine)]) {
       has_head[static_cast<size_t>(mine)] = 1;

@@ -13,8 +13,8 @@ struct Subsampled {
   std::vector<int32_t> pixels;  // of `frame`, ascending
 };
 
-/// Every scale-th pixel both ways: features are measured in pixel·metres, so a smaller image with a
-/// smaller focal length shows the same body.
+/// Takes every scale-th pixel in both directions. Features are measured in pixel·metres, so that a
+/// smaller image with a smaller focal length shows the same body.
 Subsampled Subsample(const depth::DepthFrame& frame, std::span<const int32_t> pixels, int scale);
 
 }  // namespace ossa::people

@@ -1,4 +1,5 @@
-// Who is taken for a person at once, who after a few observations, and who no longer.
+// Track initiation and termination: which candidates are accepted in one frame, which after
+// several, and which tracks are rejected.
 #include "tools/people/track_initiation.h"
 
 #include <algorithm>
@@ -12,10 +13,10 @@
 namespace ossa::people {
 namespace {
 
-constexpr double kNeverAtOnce = 2;  // a score, so that none is enough
+constexpr double kNeverInFirstFrame = 2;  // a score above all, so that none passes
 
-// Some of it may be out of sight: a lower score is enough. What is seen whole must look like a
-// person, however it came: dogs and pushed chairs come, too.
+// A partly occluded candidate needs a lower score. A completely visible one must score like a
+// person even if it moves, because dogs and pushed chairs move, too.
 bool MayBeOccluded(const Candidate& candidate, const InitiationOptions& options) {
   return candidate.occluded_share > options.occluded_share;
 }
@@ -29,7 +30,7 @@ size_t CountCommon(const std::vector<int>& a, const std::vector<int>& b) {
   return common;
 }
 
-// What came into view is elsewhere at each look: the nearest that was a step away a moment ago.
+// Moving foreground: the nearest recent tentative track within a step.
 TentativeTrack* FindMovingTentative(const Candidate& candidate, double time_s,
                                     const InitiationOptions& options,
                                     std::vector<TentativeTrack>& tentative) {
@@ -38,13 +39,14 @@ TentativeTrack* FindMovingTentative(const Candidate& candidate, double time_s,
   for (TentativeTrack& track : tentative) {
     if (!track.is_foreground || time_s - track.last_seen_s > options.step_s) continue;
     const Eigen::Vector3f off = track.mean_m - candidate.region.mean_m;
-    const float off_m = std::hypot(off.x(), off.z());  // more or less of it hidden: no height
+    const float off_m = std::hypot(off.x(), off.z());  // no height: occlusion changes it
     if (off_m < nearest_m) nearest_m = off_m, nearest = &track;
   }
   return nearest;
 }
 
-// The same thing looked at before, at the same place unless it moves; null if there was none.
+// The tentative track of the same object: at the same place, or nearby if it moves; null for a new
+// one.
 TentativeTrack* FindTentative(const Candidate& candidate, double time_s,
                               const InitiationOptions& options,
                               std::vector<TentativeTrack>& tentative) {
@@ -52,7 +54,7 @@ TentativeTrack* FindTentative(const Candidate& candidate, double time_s,
   const auto same = std::find_if(tentative.begin(), tentative.end(), [&](const auto& track) {
     const size_t larger = std::max(cells.size(), track.cells.size());
     return static_cast<double>(CountCommon(cells, track.cells)) >
-           options.same_place * static_cast<double>(larger);
+           options.min_common_share * static_cast<double>(larger);
   });
   if (same != tentative.end()) return &*same;
   return IsForeground(candidate) ? FindMovingTentative(candidate, time_s, options, tentative)
@@ -71,7 +73,7 @@ TentativeTrack StartTentative(const Detection& detection, double time_s) {
   return track;
 }
 
-// One look more.
+// Adds an observation.
 void UpdateTentative(const Detection& detection, double time_s, const InitiationOptions& options,
                      TentativeTrack& track) {
   const Region& region = detection.candidate.region;
@@ -89,21 +91,21 @@ void UpdateTentative(const Detection& detection, double time_s, const Initiation
   track.was_foreground = track.was_foreground || detection.candidate.foreground_m2 > 0;
 }
 
-// Somebody tracked a moment ago goes on by their mean score. Of whom was accepted only just more is
-// asked, for a lucky look may have been furniture, and of what never moved; less of what entered.
+// A track continues by its mean score. The threshold is higher for young tracks, which may be
+// chance detections of furniture, and for those that never moved; lower for foreground.
 Decision DecideTracked(const Detection& detection, double time_s, const InitiationOptions& options,
                        std::vector<TentativeTrack>& tentative) {
   const Candidate& candidate = detection.candidate;
   const TrackPrior& prior = detection.prior;
-  // A chair that was put there rests; who bends down to the floor was somebody before.
+  // `moving` excludes a chair that was put down. A long-lived track may be a person who bends down.
   const bool little_seen = MayBeOccluded(candidate, options) || detection.age > options.mature_age;
   const bool entered = prior.moving && little_seen && IsForeground(candidate);
   const bool early = detection.age <= options.early_age;
   const bool still = detection.age > options.still_age && !prior.moved;
-  const double needed = entered ? options.foreground_known
-                        : still ? options.still_known
-                        : early ? options.early_person
-                                : options.known_person;
+  const double needed = entered ? options.foreground_track_score
+                        : still ? options.still_track_score
+                        : early ? options.early_track_score
+                                : options.tracked_score;
   if (detection.score >= needed) return DescribeDetection(detection, Rule::kTrackContinued, needed);
   if (still || early) {
     TentativeTrack track = StartTentative(detection, time_s);
@@ -118,32 +120,36 @@ struct Requirement {
   double score;
 };
 
-// What a new person needs at the first look. A corner of furniture may look like a person once, but
-// seldom has the shape of a head, too; the pose network tells them apart, where it was asked. What
-// did not come into a known room needs more than one look.
-Requirement RequireAtFirst(const Detection& detection, bool fresh_scene,
-                           const InitiationOptions& options) {
+// The threshold for a new person in a single frame. Furniture may score high once, but seldom has
+// the shape of a head as well; the pose network separates them where it was applied. Outside fresh
+// scenes only foreground can be accepted in one frame.
+Requirement RequireInFirstFrame(const Detection& detection, bool fresh_scene,
+                                const InitiationOptions& options) {
   const Candidate& candidate = detection.candidate;
-  if (candidate.may_return) return {Rule::kReturning, options.new_person};
-  if (detection.is_joined) return {Rule::kJoinedPieces, options.person_by_pose};
-  if (fresh_scene && IsJudgedByPose(detection)) return {Rule::kFreshScene, options.person_by_pose};
+  if (candidate.may_return) return {Rule::kReturning, options.new_person_score};
+  if (detection.is_joined) return {Rule::kJoinedPieces, options.person_by_pose_score};
+  if (fresh_scene && IsVerifiedByPose(detection))
+    return {Rule::kFreshScene, options.person_by_pose_score};
   if (fresh_scene)
-    return {Rule::kFreshScene, candidate.has_head ? options.new_person : options.sure_person};
-  return {Rule::kEntered, IsForeground(candidate) ? options.foreground_first : kNeverAtOnce};
+    return {Rule::kFreshScene,
+            candidate.has_head ? options.new_person_score : options.confident_score};
+  return {Rule::kEntered,
+          IsForeground(candidate) ? options.foreground_first_score : kNeverInFirstFrame};
 }
 
-// What a new person needs as the mean of several observations.
-double RequireInTheMean(const TentativeTrack& track, const Detection& detection,
+// The threshold for a new person on the mean of several observations.
+double RequireOnAverage(const TentativeTrack& track, const Detection& detection,
                         const InitiationOptions& options) {
   const Candidate& candidate = detection.candidate;
   const bool little_seen = track.is_foreground && MayBeOccluded(candidate, options);
   if (little_seen && candidate.isolated && track.walked_m > options.walked_m)
-    return options.walked_person;
-  if (little_seen && track.moved) return options.foreground_mean;
-  if (!track.moved) return IsJudgedByPose(detection) ? options.person_by_pose : options.sure_person;
-  // What grows without standing before anything may be uncovered by somebody who passes.
+    return options.walked_score;
+  if (little_seen && track.moved) return options.foreground_mean_score;
+  if (!track.moved)
+    return IsVerifiedByPose(detection) ? options.person_by_pose_score : options.confident_score;
+  // A surface that grows without being foreground may be uncovered by a person who passes.
   const bool doubtful = track.was_rejected || !track.was_foreground;
-  return doubtful ? options.still_person : options.new_person;
+  return doubtful ? options.still_candidate_score : options.new_person_score;
 }
 
 Decision DescribeTentative(const Detection& detection, const TentativeTrack& track, Rule rule,
@@ -155,32 +161,35 @@ Decision DescribeTentative(const Detection& detection, const TentativeTrack& tra
   return decision;
 }
 
-// Pieces that are cut at heads look like people, each.
+// Segments around heads must each score like a person.
 Decision DecidePiece(const Detection& piece, const InitiationOptions& options) {
-  const double needed = IsJudgedByPose(piece) ? options.person_by_pose : options.new_person;
+  const double needed =
+      IsVerifiedByPose(piece) ? options.person_by_pose_score : options.new_person_score;
   const bool passes = piece.score >= needed;
   return DescribeDetection(piece, passes ? Rule::kPieceWithHead : Rule::kPieceLowScore, needed);
 }
 
-// New people are accepted at once in a fresh scene or when there is no doubt, else after a few
-// looks.
+// New people are accepted in one frame if the scene is fresh or the score is high, else after
+// several.
 Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& options,
                    std::vector<TentativeTrack>& tentative, Detection& detection) {
   const Candidate& candidate = detection.candidate;
   TentativeTrack* before = FindTentative(candidate, time_s, options, tentative);
-  const bool unprejudiced = before == nullptr || (candidate.may_return && !before->was_rejected);
-  const Requirement first = RequireAtFirst(detection, fresh_scene, options);
-  if (unprejudiced && detection.score >= first.score)
+  const bool may_pass_at_once =
+      before == nullptr || (candidate.may_return && !before->was_rejected);
+  const Requirement first = RequireInFirstFrame(detection, fresh_scene, options);
+  if (may_pass_at_once && detection.score >= first.score)
     return DescribeDetection(detection, first.rule, first.score);
   if (before == nullptr) {
     tentative.push_back(StartTentative(detection, time_s));
     return DescribeTentative(detection, tentative.back(), Rule::kFirstLook, first.score);
   }
   UpdateTentative(detection, time_s, options, *before);
-  const bool often = before->moved ? before->observations >= options.tentative_observations
-                                   : before->unbroken_observations >= options.standing_observations;
-  const double needed = RequireInTheMean(*before, detection, options);
-  if (!often) return DescribeTentative(detection, *before, Rule::kFewObservations, needed);
+  const bool enough = before->moved
+                          ? before->observations >= options.tentative_observations
+                          : before->unbroken_observations >= options.standing_observations;
+  const double needed = RequireOnAverage(*before, detection, options);
+  if (!enough) return DescribeTentative(detection, *before, Rule::kFewObservations, needed);
   if (before->mean_score < needed)
     return DescribeTentative(detection, *before, Rule::kLowMeanScore, needed);
   detection.score = before->mean_score;
@@ -190,18 +199,19 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
   return decision;
 }
 
-// What scored low. All that was rejected in one frame would be due again in one frame, which would
-// take long: one a frame is looked at, who waited longest, until they have waited too long.
-class Rejected {
+// Candidates with a low score, which are not classified in every frame. To spread the cost, one is
+// due per frame, the one that waited longest, and those that waited for max_retry_s.
+class RetrySchedule {
  public:
-  Rejected(const std::vector<Candidate>& candidates, double time_s, const PeopleOptions& options,
-           std::vector<TentativeTrack>& tentative) {
+  RetrySchedule(const std::vector<Candidate>& candidates, double time_s,
+                const PeopleOptions& options, std::vector<TentativeTrack>& tentative) {
     double longest_s = 0.0;
     for (const Candidate& candidate : candidates) {
       if (candidate.track >= 0 || IsForeground(candidate)) continue;
       const TentativeTrack* before =
           FindTentative(candidate, time_s, options.initiation, tentative);
-      if (before == nullptr || before->mean_score >= options.classification.rejected) continue;
+      if (before == nullptr || before->mean_score >= options.classification.rejected_score)
+        continue;
       before_.emplace(&candidate, before);
       const double waited_s = time_s - before->last_seen_s;
       if (waited_s >= options.classification.retry_s && waited_s > longest_s) {
@@ -213,7 +223,7 @@ class Rejected {
   }
 
   bool Has(const Candidate& candidate) const { return before_.contains(&candidate); }
-  /// What is known of a candidate that is not to be looked at now; null of all others.
+  /// The tentative track of a candidate that is not due; null for all others.
   const TentativeTrack* FindWaiting(const Candidate& candidate) const {
     const auto found = before_.find(&candidate);
     const bool is_due =
@@ -237,21 +247,21 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
     return fresh_scene || time_s < track.last_seen_s - recon::FrameSteps::kJitter_s ||
            time_s - track.last_seen_s >= options.initiation.forget_s;
   });
-  const Rejected rejected(candidates, time_s, options, tentative);
+  const RetrySchedule schedule(candidates, time_s, options, tentative);
   std::vector<Candidate> selected;
   for (Candidate& candidate : candidates) {
     if (selected.size() == options.classification.max_candidates) {
       decided.push_back(DescribeRegion(candidate.region, Rule::kCandidateLimit));
       continue;
     }
-    if (const TentativeTrack* before = rejected.FindWaiting(candidate)) {
+    if (const TentativeTrack* before = schedule.FindWaiting(candidate)) {
       Decision decision = DescribeRegion(candidate.region, Rule::kRejectedBefore);
       decision.mean_score = before->mean_score;
       decision.observations = before->observations;
       decided.push_back(decision);
       continue;
     }
-    candidate.rejected = rejected.Has(candidate);
+    candidate.recently_rejected = schedule.Has(candidate);
     selected.push_back(std::move(candidate));
   }
   return selected;

@@ -5,38 +5,40 @@
 
 namespace ossa::people {
 
-/// What was classified and is no person, so far: judged by all observations together, for noise
-/// makes single ones vary; what scores low is not classified again in every frame.
+/// A classified candidate that is not accepted as a person so far. The decision is by the mean over
+/// its observations, because noise makes single ones vary; with a low score it is not classified in
+/// every frame.
 struct TentativeTrack {
-  std::vector<int> cells;                                  // of the last look, ascending
-  Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();        // of the last look
-  Eigen::Vector3f first_mean_m = Eigen::Vector3f::Zero();  // of the first one,
-  float first_m2 = 0;                                      // ... and its surface
+  std::vector<int> cells;                                  // of the last observation, ascending
+  Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();        // of the last observation
+  Eigen::Vector3f first_mean_m = Eigen::Vector3f::Zero();  // of the first observation
+  float first_m2 = 0;                                      // the same
   bool moved = false;                                      // since then
-  double walked_m = 0.0;                                   // ... so far over the floor
+  double walked_m = 0.0;  // horizontal distance from the first observation
   double last_seen_s = 0.0;
   double mean_score = 0.0;
   int observations = 1;
-  int unbroken_observations = 1;  // of them without a gap
-  bool was_rejected = false;      // it was a person, but did not stay one or never moved
-  bool was_foreground = false;    // any of it was seen before a known background
-  bool is_foreground = false;     // most of it is, and goes on moving
+  int unbroken_observations = 1;  // consecutive ones, to the last
+  bool was_rejected = false;      // it was accepted before, and rejected later
+  bool was_foreground = false;    // some of it was foreground
+  bool is_foreground = false;     // most of it was foreground in the last observation
 };
 
-/// The candidates that are worth classifying, in their order. What is not goes to `decided`; what
-/// was not seen for long is forgotten.
+/// The candidates to classify in this frame, in their order. The others go to `decided`. Deletes
+/// old tentative tracks.
 std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool fresh_scene,
                                         double time_s, const PeopleOptions& options,
                                         std::vector<TentativeTrack>& tentative,
                                         std::vector<Decision>& decided);
 
-/// Whether a detection is a person, and by which rule (`detection.decision`). Of a new person
-/// `score` becomes the mean of all observations. Who is none is remembered.
+/// Decides whether a detection is a person, and by which rule (`detection.decision`). Of a new
+/// person `score` becomes the mean of all observations. A rejected detection becomes a tentative
+/// track.
 bool DecidePerson(bool fresh_scene, double time_s, const InitiationOptions& options,
                   std::vector<TentativeTrack>& tentative, Detection& detection);
 
-/// The people among detections: those continued first, then by score, at most `max_users`. All
-/// others go to `decided`.
+/// The accepted people: tracked ones first, then by score, at most `max_users`. All others go to
+/// `decided`.
 std::vector<Detection> SelectPeople(std::vector<Detection> detections, bool fresh_scene,
                                     double time_s, const InitiationOptions& options,
                                     std::vector<TentativeTrack>& tentative,

@@ -15,7 +15,7 @@ Vector3f PredictMean_m(const Track& track, double time_s, double max_prediction_
 std::vector<int> PredictOwners(const PointGrid& grid, const std::vector<Track>& tracks,
                                double time_s, const PredictionOptions& options) {
   std::vector<int> owner(static_cast<size_t>(grid.cells()), -1);
-  // Where they would be if they went on as before, then, for who stopped, where they were.
+  // First with constant velocity, then, for people who stopped, at the old place.
   for (const bool moved : {true, false}) {
     for (size_t t = 0; t < tracks.size(); ++t) {
       const Track& track = tracks[t];

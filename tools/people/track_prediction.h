@@ -5,15 +5,15 @@
 #include "tools/people/options.h"
 #include "tools/people/track.h"
 
-// Where the tracks of the frames before are expected now.
+// Predicted places of the tracks of earlier frames.
 namespace ossa::people {
 
-/// Which track each cell belongs to, as an index: near where the track's cells went, at a similar
-/// depth. -1 for none.
+/// The track that each cell is predicted to belong to, as an index: near the predicted place of the
+/// track's cells, at a similar depth. -1 for none.
 std::vector<int> PredictOwners(const PointGrid& grid, const std::vector<Track>& tracks,
                                double time_s, const PredictionOptions& options = {});
 
-/// Cells of the region that each track owns.
+/// The cells of the region that each track owns.
 std::vector<std::vector<int>> CollectOverlaps(const Region& region, const std::vector<int>& owner,
                                               size_t tracks);
 
@@ -21,17 +21,16 @@ std::vector<std::vector<int>> CollectOverlaps(const Region& region, const std::v
 /// cells.
 int FindMainOwner(const Region& region, const std::vector<int>& owner, size_t tracks);
 
-/// Whether a track that is out of view is expected about here and now. It is forgotten after
-/// `forget_s`.
+/// Whether a lost track is expected near a region now. It is deleted after `forget_s`.
 bool MayReturnAs(const Track& track, const Region& region, double time_s, double forget_s,
                  const PredictionOptions& options = {});
 
-/// Whether something shifted or shows another surface than at first. Furniture stays where it is
-/// and shows the same surface; people shift, breathe and turn.
+/// Whether an object moved or changed its visible surface since its first observation. Furniture
+/// does neither; people shift, breathe and turn.
 bool HasMoved(const Eigen::Vector3f& first_mean_m, float first_m2, const Region& now,
               const MotionOptions& options = {});
 
-/// Whether a track has been out of view for too long.
+/// Whether a lost track is to be deleted.
 bool IsForgotten(const Track& track, double time_s, const ReidentifyOptions& options);
 
 }  // namespace ossa::people

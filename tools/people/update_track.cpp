@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-// While a good part of a person is hidden, the middle of the rest moves as the hiding thing does:
-// the person is taken to go on as before, near what is seen of them.
+// While a person is partly occluded, the visible centroid moves with the occluder: the track is
+// predicted with constant velocity, within a distance of the visible centroid.
 void MoveHidden(const Region& region, double time_s, const MotionOptions& options, Track& track) {
   const Vector3f expected = PredictMean_m(track, time_s, options.max_hidden_s) - region.mean_m;
   const float far_m = expected.norm();
@@ -22,8 +22,8 @@ void MoveHidden(const Region& region, double time_s, const MotionOptions& option
   track.mean_m = region.mean_m + share * expected;
 }
 
-// How far the body went from one frame to the next, by the keypoints seen in both: the mean of the
-// middle half, for single ones jump. Nothing where there are too few.
+// The displacement of the body between two frames, by the keypoints seen in both: the mean of the
+// middle half, because single ones jump. Nothing where there are too few.
 std::optional<Vector3f> MeasureShift_m(const Keypoints& before_m, const Keypoints& now_m,
                                        size_t min_keypoints) {
   std::array<std::vector<float>, 3> way_m;
@@ -45,8 +45,8 @@ std::optional<Vector3f> MeasureShift_m(const Keypoints& before_m, const Keypoint
   return shift_m;
 }
 
-// By keypoints, where they are seen: also of who is half hidden. Else by the middle of the surface,
-// which says nothing of who is half hidden: it moves as the hiding thing does.
+// By keypoints where they are seen, also if partly occluded; else by the centroid of the surface,
+// unless it is partly occluded and moves with the occluder.
 template <class IsHidden>
 void UpdateVelocity(const Detection& person, const IsHidden& is_hidden, float dt_s,
                     const MotionOptions& options, Track& track) {
@@ -63,13 +63,14 @@ void UpdateVelocity(const Detection& person, const IsHidden& is_hidden, float dt
       shift_m ? std::max(options.keypoint_share, 1.0F / static_cast<float>(track.velocity_frames))
               : options.surface_share;
   Vector3f velocity = (shift_m ? *shift_m : person.candidate.region.mean_m - track.mean_m) / dt_s;
-  velocity.y() = 0;  // nobody flies
+  velocity.y() = 0;  // people walk horizontally
   track.velocity_m_s += share * (velocity - track.velocity_m_s);
   const float fast = track.velocity_m_s.norm();
   if (fast > options.max_m_s) track.velocity_m_s *= options.max_m_s / fast;
 }
 
-void NoteMovement(const Region& region, double time_s, const MotionOptions& options, Track& track) {
+void UpdateMovement(const Region& region, double time_s, const MotionOptions& options,
+                    Track& track) {
   if (track.first_m2 == 0) {
     track.first_mean_m = region.mean_m;
     track.first_m2 = region.area_m2;
@@ -106,9 +107,9 @@ void UpdateTrack(const PointGrid& grid, const Detection& person, const std::vect
   } else {
     track.mean_m = region.mean_m;
   }
-  // Of who is half hidden joints are guesses.
+  // The joints of a partly occluded person are unreliable.
   if (!hidden) track.measures.Add(person.measures, options.reidentify.measures);
-  NoteMovement(region, time_s, options.motion, track);
+  UpdateMovement(region, time_s, options.motion, track);
   track.full_m2 = std::max(region.area_m2, options.motion.forget_area * track.full_m2);
   track.cells = region.cells;
   track.z_m = CollectDepths(grid, region);
@@ -122,7 +123,7 @@ void UpdateTrack(const PointGrid& grid, const Detection& person, const std::vect
   track.facing_s = time_s;
 }
 
-void ForgetEvidence(Track& track) {
+void ResetEvidence(Track& track) {
   track.score.reset();
   track.age = 0;
   track.facing.clear();

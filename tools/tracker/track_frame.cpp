@@ -164,16 +164,16 @@ void Tracker::Impl::WithdrawUnlikeBodies(const std::vector<people::Person>& seen
                                          BodyFrame& result) {
   const people::InitiationOptions& initiation = people_options.initiation;
   const auto is_doubtful = [&](const people::Person& person) {
-    return people::IsDoubtfulAtFirst(person.detection, initiation);
+    return people::NeedsSurfaceCheck(person.detection, initiation);
   };
   const bool somebody_is_sure = !std::all_of(seen.begin(), seen.end(), is_doubtful);
   for (size_t i = seen.size(); i-- > 0;) {
     const Body& body = result.bodies[i];
     if (!body.fit || !is_doubtful(seen[i])) continue;
     const people::ExplainedShares fit{body.fit->explained, body.fit->score};
-    if (!people::IsUnlikeABody(fit, body.person_score, somebody_is_sure, initiation)) continue;
+    if (!people::IsPoorBodyFit(fit, body.person_score, somebody_is_sure, initiation)) continue;
     ClearParts(body.id, result);
-    people::Withdraw(body.id, people_state, result.users, result.decisions);
+    people::WithdrawPerson(body.id, people_state, result.users, result.decisions);
     persons.erase(body.id);
     result.bodies.erase(result.bodies.begin() + static_cast<std::ptrdiff_t>(i));
   }

@@ -78,7 +78,7 @@ class Halves : public testing::Test {
     upper_.evidence.score = upper_score;
     lower_.evidence.score = lower_score;
     upper_.age = lower_.age = age;
-    return MayBePartsOfOne(scene_, options_, upper_, lower_, stacked);
+    return MayBePartsOfOnePerson(scene_, options_, upper_, lower_, stacked);
   }
   Scene scene_;
   PeopleOptions options_;
@@ -134,26 +134,26 @@ TEST_F(Halves, OfWhoLeansForwardAreStackedWhereBothLookLikePeople) {
 }
 
 // Shares as of people and of coats on stands in rendered rooms.
-TEST(IsUnlikeABody, MoreIsAskedBesideSomebody) {
+TEST(IsPoorBodyFit, MoreIsAskedBesideSomebody) {
   const InitiationOptions options;
   const ExplainedShares coat{0.71, 0.58}, person{0.93, 0.89}, cupboard{0.46, 0.2};
-  EXPECT_FALSE(IsUnlikeABody(coat, 0.87, false, options));
-  EXPECT_TRUE(IsUnlikeABody(coat, 0.87, true, options));
-  EXPECT_FALSE(IsUnlikeABody(person, 0.9, true, options));
-  EXPECT_TRUE(IsUnlikeABody(cupboard, 0.9, false, options));
+  EXPECT_FALSE(IsPoorBodyFit(coat, 0.87, false, options));
+  EXPECT_TRUE(IsPoorBodyFit(coat, 0.87, true, options));
+  EXPECT_FALSE(IsPoorBodyFit(person, 0.9, true, options));
+  EXPECT_TRUE(IsPoorBodyFit(cupboard, 0.9, false, options));
 }
 
-TEST(MayBeTwo, WhoWasOneForLongIsOneWhileNoMoreShows) {
+TEST(MayBeTwoPeople, WhoWasOneForLongIsOneWhileNoMoreShows) {
   ClassificationOptions options;
   Detection whole;
   whole.prior.full_m2 = 0.45F;
   whole.candidate.region.area_m2 = 0.40F;  // bending down
   whole.age = 12;
-  EXPECT_TRUE(MayBeTwo(whole, options));
+  EXPECT_TRUE(MayBeTwoPeople(whole, options));
   whole.age = 40;
-  EXPECT_FALSE(MayBeTwo(whole, options));
+  EXPECT_FALSE(MayBeTwoPeople(whole, options));
   whole.candidate.region.area_m2 = 0.65F;  // somebody came
-  EXPECT_TRUE(MayBeTwo(whole, options));
+  EXPECT_TRUE(MayBeTwoPeople(whole, options));
 }
 
 }  // namespace

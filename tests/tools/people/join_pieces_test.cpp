@@ -45,25 +45,25 @@ bool DoMeet(uint16_t lower_mm, uint16_t between_mm) {
     if (row == 56 * grid.height / kHeight) lower = i;
   }
   EXPECT_LT(std::max(upper, lower), pieces.size());
-  const auto meeting = FindPiecesThatMeet(grid, pieces, {});
+  const auto meeting = FindAdjacentPieces(grid, pieces, {});
   return std::ranges::count(meeting[upper], lower) == 1 &&
          std::ranges::count(meeting[lower], upper) == 1;
 }
 
-TEST(FindPiecesThatMeet, OverWhatIsNearerAndOverItsShadow) {
+TEST(FindAdjacentPieces, OverWhatIsNearerAndOverItsShadow) {
   EXPECT_TRUE(DoMeet(1000, 700));  // an arm
   EXPECT_TRUE(DoMeet(1000, 0));    // nothing was measured
   EXPECT_TRUE(DoMeet(1300, 0));    // a trunk below the arm that hides its upper half
 }
 
-TEST(FindPiecesThatMeet, NotWhereTheRoomShowsBetweenNorFarBehind) {
+TEST(FindAdjacentPieces, NotWhereTheRoomShowsBetweenNorFarBehind) {
   EXPECT_FALSE(DoMeet(1000, 2000));
   EXPECT_FALSE(DoMeet(1700, 0));
 }
 
-TEST(FindPiecesThatMeet, NotOverMoreThanAnArmHides) {
+TEST(FindAdjacentPieces, NotOverMoreThanAnArmHides) {
   const PointGrid grid = Painted({{60, 100, 10, 40, 1000}, {60, 100, 80, 110, 1000}});
-  for (const auto& others : FindPiecesThatMeet(grid, Pieces(grid), {})) EXPECT_TRUE(others.empty());
+  for (const auto& others : FindAdjacentPieces(grid, Pieces(grid), {})) EXPECT_TRUE(others.empty());
 }
 
 // Head and trunk, each too small for a person, below and above an arm, and a thing beside that
@@ -77,7 +77,7 @@ class CutInTwo : public testing::Test {
   ClassifyRegion Classifier() {
     return [this](Region region) {
       Detection detection;
-      detection.judge = Judge::kForestAndNetwork;
+      detection.verifier = Verifier::kForestAndNetwork;
       const bool has_thing = MeasureShare(region, thing_) > 0;
       detection.evidence.score = has_thing ? 0.0 : static_cast<double>(region.area_m2);
       detection.candidate.region = std::move(region);
@@ -88,7 +88,7 @@ class CutInTwo : public testing::Test {
   std::vector<Detection> Grow() {
     thing_.assign(static_cast<size_t>(grid_.cells()), 0);
     for (int i = 0; i < grid_.cells(); ++i) thing_[static_cast<size_t>(i)] = grid_.z(i) > 1.1F;
-    return GrowOverEdges(grid_, Pieces(grid_), Classifier(), {});
+    return GrowAcrossDepthEdges(grid_, Pieces(grid_), Classifier(), {});
   }
   PointGrid grid_ = Painted({kHead, kTrunk, kThing});
   std::vector<uint8_t> thing_;
@@ -98,7 +98,7 @@ class CutInTwo : public testing::Test {
 TEST_F(CutInTwo, GrowsByWhatMakesItMoreLikeAPersonAlone) {
   const auto wholes = Grow();
   ASSERT_FALSE(wholes.empty());
-  const Detection& best = *std::ranges::max_element(wholes, {}, MeasureLikeness);
+  const Detection& best = *std::ranges::max_element(wholes, {}, GetPersonScore);
   const Region& whole = best.candidate.region;
   EXPECT_EQ(MeasureShare(whole, thing_), 0.0);
   EXPECT_EQ(whole.cells.size(),

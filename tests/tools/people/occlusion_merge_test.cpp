@@ -130,7 +130,7 @@ TEST(IsOccludedBetween, IsNotWhereTheRoomShowsBehindBoth) {
   EXPECT_FALSE(IsOccludedWithAGapTo(5500)) << "the wall";
 }
 
-TEST(IsOneAbove, IsMeantOverTheFloorAlsoOfASensorThatLooksDown) {
+TEST(IsOneAboveOther, IsMeantOverTheFloorAlsoOfASensorThatLooksDown) {
   const float tilt_rad = 0.45F;
   PointGrid grid;
   grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};
@@ -143,10 +143,10 @@ TEST(IsOneAbove, IsMeantOverTheFloorAlsoOfASensorThatLooksDown) {
   };
   const Region trousers = piece(0.5F, 0), shirt = piece(1.2F, 0);
   EXPECT_GT(trousers.mean_m.z() - shirt.mean_m.z(), 0.3F);  // as the sensor sees it
-  EXPECT_TRUE(IsOneAbove(grid, trousers, shirt));
-  EXPECT_TRUE(IsOneAbove(grid, shirt, trousers));
-  EXPECT_FALSE(IsOneAbove(grid, trousers, piece(1.2F, 0.5F)));
-  EXPECT_FALSE(IsOneAbove(grid, trousers, piece(0.6F, 0.2F)));
+  EXPECT_TRUE(IsOneAboveOther(grid, trousers, shirt));
+  EXPECT_TRUE(IsOneAboveOther(grid, shirt, trousers));
+  EXPECT_FALSE(IsOneAboveOther(grid, trousers, piece(1.2F, 0.5F)));
+  EXPECT_FALSE(IsOneAboveOther(grid, trousers, piece(0.6F, 0.2F)));
 }
 
 TEST(MergeBesideOccluder, ThingsSideBySideWithTheWallBetweenThemStayApart) {

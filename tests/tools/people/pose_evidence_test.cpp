@@ -26,7 +26,7 @@ TEST(MeasureCertainty, IsOfTheFiveJointsThatTheNetworkIsSurestOf) {
 }
 
 TEST(ScoreWithPose, GrowsWithBothAndNeitherIsAllThatCounts) {
-  const double needed = InitiationOptions{}.person_by_pose;
+  const double needed = InitiationOptions{}.person_by_pose_score;
   EXPECT_LT(ComputeScoreWithPose(0.5, 2.5), ComputeScoreWithPose(0.6, 2.5));
   EXPECT_LT(ComputeScoreWithPose(0.5, 2.5), ComputeScoreWithPose(0.5, 2.6));
   // A forest that is all but certain of furniture, and one in doubt of a person behind a board.

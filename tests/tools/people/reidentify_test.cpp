@@ -98,8 +98,8 @@ TEST(FindBestAssignment, LeavesOutWhatSpeaksAgainstIt) {
 class Lost : public testing::Test {
  protected:
   double Ratio(float x_m, double gone_s, Entrance entrance) const {
-    return CompareWithLost(PointGrid{}, track_, {x_m, 0.2F, 4.0F}, body_, entrance, 1.0 + gone_s,
-                           {});
+    return ComputeLostTrackLogOdds(PointGrid{}, track_, {x_m, 0.2F, 4.0F}, body_, entrance,
+                                   1.0 + gone_s, {});
   }
   void SetUp() override {
     track_.mean_m = {0, 0, 4};

@@ -19,7 +19,7 @@ struct Look {
   bool has_head = true;
   bool isolated = true;
   double occluded_share = 0.3;  // of its silhouette, by something nearer
-  Judge judge = Judge::kForest;
+  Verifier verifier = Verifier::kForest;
 };
 
 class NewPerson : public testing::Test {
@@ -28,7 +28,7 @@ class NewPerson : public testing::Test {
   Detection Detect(const Look& look) {
     Detection detection;
     detection.score = detection.evidence.score = look.score;
-    detection.judge = look.judge;
+    detection.verifier = look.verifier;
     Candidate& candidate = detection.candidate;
     candidate.foreground_share = look.foreground_share;
     candidate.foreground_m2 = static_cast<float>(look.foreground_share) * look.area_m2;
@@ -69,7 +69,7 @@ TEST_F(NewPerson, IsBelievedAtOnceInAFreshSceneAndElsewhereAfterThreeSureLooks) 
 // A head's shape counts for nothing then.
 TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
   const auto by_pose = [](double score, bool has_head) {
-    return Look{.score = score, .has_head = has_head, .judge = Judge::kForestAndNetwork};
+    return Look{.score = score, .has_head = has_head, .verifier = Verifier::kForestAndNetwork};
   };
   EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.45, true); }), -1);
   EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.55, false); }), 0);
@@ -79,11 +79,11 @@ TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
   std::vector<TentativeTrack> tentative;
   Detection detection = Detect(by_pose(0.55, true));
   EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, detection));
-  EXPECT_FALSE(IsDoubtfulAtFirst(detection, options_));
+  EXPECT_FALSE(NeedsSurfaceCheck(detection, options_));
   Detection contested = Detect(Look{0.97});
-  contested.judge = Judge::kSurfaceFit;
+  contested.verifier = Verifier::kSurfaceFit;
   EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, contested));
-  EXPECT_TRUE(IsDoubtfulAtFirst(contested, options_));
+  EXPECT_TRUE(NeedsSurfaceCheck(contested, options_));
 }
 
 TEST_F(NewPerson, ThatIsAPieceIsOneUnlessThePoseNetworkSaysOtherwise) {
@@ -96,9 +96,9 @@ TEST_F(NewPerson, ThatIsAPieceIsOneUnlessThePoseNetworkSaysOtherwise) {
     return is_person;
   };
   EXPECT_TRUE(is_one({.score = 0.65}));
-  EXPECT_TRUE(is_one({.score = 0.55, .judge = Judge::kForestAndNetwork}));
+  EXPECT_TRUE(is_one({.score = 0.55, .verifier = Verifier::kForestAndNetwork}));
   EXPECT_EQ(rule_, Rule::kPieceWithHead);
-  EXPECT_FALSE(is_one({.score = 0.45, .judge = Judge::kForestAndNetwork}));
+  EXPECT_FALSE(is_one({.score = 0.45, .verifier = Verifier::kForestAndNetwork}));
   EXPECT_EQ(rule_, Rule::kPieceLowScore);
 }
 
@@ -181,7 +181,7 @@ TEST_F(NewPerson, GoesOnByAScoreThatFallsWithAgeUnlessTheyNeverMoved) {
       EXPECT_EQ(detection.decision.needed_score, c.needed) << c.age;
     }
     // What was furniture by all that is known is looked at with suspicion from then on.
-    const bool is_suspect = c.needed > options_.known_person;
+    const bool is_suspect = c.needed > options_.tracked_score;
     ASSERT_EQ(tentative.size(), is_suspect ? 1U : 0U) << c.age;
     if (is_suspect) {
       EXPECT_TRUE(tentative[0].was_rejected);
@@ -226,7 +226,7 @@ TEST_F(NewPerson, IsNoBoardThatScoresLow) {
   std::vector<TentativeTrack> tentative;
   EXPECT_FALSE(DecidePerson(true, 0, options_, tentative, board));
   EXPECT_EQ(board.decision.rule, Rule::kPlanar);
-  EXPECT_EQ(board.decision.needed_score, options_.new_person);
+  EXPECT_EQ(board.decision.needed_score, options_.new_person_score);
 }
 
 TEST_F(NewPerson, BeyondTheMostUsersIsLeftOutByThatRule) {
@@ -291,7 +291,7 @@ TEST(SelectCandidates, OfSeveralThatScoredLowOneIsClassifiedAFrame) {
     ASSERT_LE(selected.size(), 1U) << frame;
     EXPECT_EQ(selected.size() + decided.size(), 3U);
     if (selected.empty()) continue;
-    EXPECT_TRUE(selected[0].rejected);
+    EXPECT_TRUE(selected[0].recently_rejected);
     order.push_back(selected[0].region.cells[0]);
     tentative[static_cast<size_t>(order.back())].last_seen_s = frame / 30.0;
   }
@@ -344,7 +344,7 @@ TEST_F(NewPerson, IsHeldAgainstABodyWhereOneLookLeavesDoubt) {
   const auto is_doubtful = [&](const Look& look, bool fresh) {
     Detection detection = Detect(look);
     DecidePerson(fresh, 0.0, options_, tentative, detection);
-    return IsDoubtfulAtFirst(detection, options_);
+    return NeedsSurfaceCheck(detection, options_);
   };
   EXPECT_TRUE(is_doubtful(Look{0.7}, true));
   EXPECT_FALSE(is_doubtful(Look{0.97}, true));
@@ -365,7 +365,7 @@ TEST(Withdrawal, LeavesNoTrackAndNoPixels) {
   decisions.tracks[0].id = 1;
   decisions.tracks[1].id = 2;
   state.tracks.next_id = 3;
-  Withdraw(2, state, users, decisions);
+  WithdrawPerson(2, state, users, decisions);
   ASSERT_EQ(state.tracks.tracks.size(), 1U);
   EXPECT_EQ(state.tracks.tracks[0].id, 1);
   EXPECT_EQ(users.data, (std::vector<uint8_t>{1, 0, 0}));
@@ -384,7 +384,7 @@ TEST(Withdrawal, LeavesOthersTheirIds) {
   state.tracks.next_id = 3;
   depth::Image<uint8_t> users(1, 1);
   FrameDecisions decisions;
-  Withdraw(1, state, users, decisions);
+  WithdrawPerson(1, state, users, decisions);
   EXPECT_EQ(state.tracks.next_id, 3);
 }
 

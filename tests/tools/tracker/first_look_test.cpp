@@ -80,7 +80,7 @@ TEST(FirstLook, WhatAnArmAcrossTheChestLeavesOfAPersonIsOneBody) {
   const auto network = ModelSet::Shipped(TrackerOptions{}.method).pose_network;
   const BodyFrame seen = FirstLook(network, PersonBehindAnArm());
   ASSERT_EQ(seen.bodies.size(), 1U);
-  EXPECT_GT(seen.bodies[0].person_score, people::InitiationOptions{}.person_by_pose);
+  EXPECT_GT(seen.bodies[0].person_score, people::InitiationOptions{}.person_by_pose_score);
   int joined = 0;
   for (const people::Decision& decision : seen.decisions.candidates) {
     joined += decision.rule == people::Rule::kJoinedPieces ? 1 : 0;
@@ -110,12 +110,12 @@ depth::DepthFrame PersonBetweenThings() {
 
 // The largest piece that the forest was asked about last, where what is cut around a head needs
 // such a score.
-people::Detection LargestPiece(const depth::DepthFrame& frame, double touching_person) {
+people::Detection LargestPiece(const depth::DepthFrame& frame, double head_piece_score) {
   const ModelSet models = ModelSet::Shipped(TrackerOptions{}.method);
   const auto targets = people::FindJointTargets(*models.forest, models.forest_file);
   const auto sure = NetworkOfError(-2.0F);
   people::PeopleOptions options;
-  options.classification.touching_person = touching_person;
+  options.classification.head_piece_score = head_piece_score;
   depth::SceneState state;
   const depth::Scene scene = depth::MeasureScene(frame, state, options.scene);
   const std::vector<people::Track> nobody;
@@ -139,10 +139,10 @@ TEST(FirstLook, WhatIsNoPersonAsItStandsIsCutAroundItsHead) {
   OSSA_NEEDS_MODEL();
   constexpr double kNever = 1.1;
   const depth::DepthFrame frame = PersonBetweenThings();
-  const double needed = people::ClassificationOptions{}.touching_person;
+  const double needed = people::ClassificationOptions{}.head_piece_score;
   const people::Detection whole = LargestPiece(frame, kNever), cut = LargestPiece(frame, needed);
   EXPECT_GT(Width_m(whole), 1.8);
-  EXPECT_LT(whole.score, people::InitiationOptions{}.person_by_pose);
+  EXPECT_LT(whole.score, people::InitiationOptions{}.person_by_pose_score);
   EXPECT_LT(Width_m(cut), 1.5);
   EXPECT_GE(cut.evidence.score, needed);
 }
