@@ -8,9 +8,9 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <set>
 
+#include "depth/base/angles.h"
 #include "depth/base/error.h"
 #include "depth/base/one_line.h"
 #include "depth/base/open_file.h"
@@ -23,7 +23,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// One table of the file. What is read of it is remembered, so that a name nobody knows is found.
+/// One table of the file. Remembers the keys that were read, so that unknown ones are reported.
 class TableReader {
  public:
   TableReader(const std::string& file, std::string name, const toml::table& table)
@@ -71,7 +71,7 @@ class TableReader {
     if (value != std::floor(value)) Fail(key, "a whole number");
     return static_cast<int>(value);
   }
-  /// None where the file does not say.
+  /// Nothing if the key is absent.
   template <size_t kCount>
   std::optional<Eigen::Matrix<double, kCount, 1>> Numbers(const char* key, double most) {
     const toml::node* node = Find(key);
@@ -121,7 +121,7 @@ class TableReader {
                        OnOneLine(key.str())));
     }
   }
-  /// Each table of a list of them, [[key]]; none where there is none.
+  /// Calls `read` for each table of a list, [[key]].
   template <typename Read>
   void ForEach(const char* key, const Read& read) {
     const toml::node* node = Find(key);
@@ -152,11 +152,11 @@ constexpr double kHeaviest_kg = 1e5, kLightest_kg = 1e-3;
 constexpr double kSmallest_m = 0.005;
 constexpr double kLongest_s = 1e5;
 
-/// Turns about x, y, z, one after the other, degrees.
+/// Rotations about x, y, z, in this order, degrees.
 Quaterniond TurnOf(TableReader& table) {
   constexpr double kWhole_deg = 360.0;
-  const Vector3d turn = table.Numbers<3>("turn_deg", kWhole_deg).value_or(Vector3d::Zero()) *
-                        (std::numbers::pi / 180.0);
+  const Vector3d turn =
+      table.Numbers<3>("turn_deg", kWhole_deg).value_or(Vector3d::Zero()) * kDegree;
   return Eigen::AngleAxisd(turn.z(), Vector3d::UnitZ()) *
          Eigen::AngleAxisd(turn.y(), Vector3d::UnitY()) *
          Eigen::AngleAxisd(turn.x(), Vector3d::UnitX());
@@ -219,7 +219,7 @@ SceneObject ObjectOf(TableReader& table) {
   return object;
 }
 
-/// Names of objects that are there.
+/// Names of defined objects.
 std::vector<std::string> ObjectsOf(TableReader& table, const SceneOptions& scene) {
   const std::vector<std::string> names = table.Texts("objects");
   for (const std::string& name : names) {

@@ -5,10 +5,10 @@
 namespace ossa {
 namespace {
 
-TEST(Angles, AreTurnedIntoRadiansAndBack) {
-  EXPECT_DOUBLE_EQ(ToRadians(180.0), std::numbers::pi);
+TEST(Angles, AreConvertedBetweenDegreesAndRadians) {
+  EXPECT_DOUBLE_EQ(180.0 * kDegree, std::numbers::pi);
   EXPECT_DOUBLE_EQ(ToDegrees(std::numbers::pi / 2.0), 90.0);
-  EXPECT_DOUBLE_EQ(ToDegrees(ToRadians(-37.5)), -37.5);
+  EXPECT_DOUBLE_EQ(ToDegrees(-37.5 * kDegree), -37.5);
 }
 
 }  // namespace
