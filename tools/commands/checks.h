@@ -7,7 +7,7 @@
 
 namespace ossa::commands {
 
-/// In place of CLI::PositiveNumber, whose complaint spells out the largest double.
+/// Replaces CLI::PositiveNumber, whose message contains the largest double.
 inline CLI::Validator Positive() {
   const auto complaint = [](const std::string& text) {
     const bool good = std::strtod(text.c_str(), nullptr) > 0;

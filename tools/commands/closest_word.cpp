@@ -26,11 +26,12 @@ size_t EditDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string ClosestWord(std::string_view typed, std::span<const std::string> words) {
-  constexpr size_t kLongest = 64;  // characters; by hand: no word of ours is half as long
+  constexpr size_t kLongest = 64;  // characters; by hand: twice the longest word to match
   if (typed.size() < 2 || typed.size() > kLongest) return {};
   std::string best;
   size_t fewest =
-      1 + std::max<size_t>(1, typed.size() / 3);  // a third mistyped is still it, by hand
+      1 + std::max<size_t>(
+              1, typed.size() / 3);  // by hand: at most a third of the characters may differ
   for (const std::string& word : words) {
     const size_t edits = EditDistance(typed, word);
     if (edits >= fewest) continue;

@@ -28,12 +28,13 @@ struct UsageError : std::runtime_error {
 /// Thrown after --help was printed: exit status 0.
 struct HelpShown {};
 
-/// Parses the arguments of a subcommand; what they leave open the user's file of defaults may say.
-/// Throws UsageError, HelpShown (also after `--describe`, see describe.h), or InputError for that
-/// file.
+/// Parses the arguments of a subcommand; missing options are taken from the user's file of
+/// defaults. Throws UsageError, HelpShown (also after `--describe`, see describe.h), or InputError
+/// for that file.
 void Parse(CLI::App& app, int argc, char** argv);
 
-/// True once Ctrl-C or SIGTERM came. Long loops ask it, stop, and leave no half-written file.
+/// Whether Ctrl-C or SIGTERM was received. Long loops check it, stop, and leave no half-written
+/// file.
 bool Interrupted();
 
 /// Progress on stderr with the time left: one line rewritten in place on a terminal, a plain line

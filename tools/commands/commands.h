@@ -2,7 +2,7 @@
 
 namespace ossa::commands {
 
-// One function a subcommand, each in a file of its own name in this folder.
+// One function per subcommand, each in a file of this folder with the same name.
 int Evaluate(int argc, char** argv);
 int Compare(int argc, char** argv);
 int Fuse(int argc, char** argv);
@@ -24,8 +24,8 @@ int View(int argc, char** argv);
 int Train(int argc, char** argv);
 int Render(int argc, char** argv);
 
-/// The commands of the package ossa-tools: the program ossa-tools beside this one goes on in its
-/// place. Throws InputError that names the package where it is not installed.
+/// The commands of the package ossa-tools: replaces this process by the program ossa-tools beside
+/// it. Throws InputError that names the package if it is not installed.
 int RunTools(int argc, char** argv);
 
 }  // namespace ossa::commands

@@ -136,7 +136,7 @@ void WriteReport(const tools::Comparison& comparison, const CompareArguments& a)
 }
 
 void Tell(const tools::Comparison& comparison, const CompareArguments& a) {
-  // First what cannot fail: a full disk costs a file, not the numbers.
+  // Printed before the files are written, so that a full disk does not lose the numbers.
   if (a.json_to_stdout()) {
     fmt::print("{}", tools::ToJson(comparison));
   } else if (!a.quiet) {

@@ -36,46 +36,62 @@ std::vector<recon::PostureClip> ToPostures(const std::vector<recon::MotionClip>&
   return out;
 }
 
-}  // namespace
-
-int Database(int argc, char** argv) {
-  CLI::App app("Build a posture database and its filtered pose graph from motion capture");
+struct DatabaseArguments {
   std::vector<std::string> mocap;
   std::string out, filter = "max-joint";
   recon::DatabaseOptions options;
-  recon::MocapOptions mocap_options;
+  recon::MocapOptions motion;
   bool quiet = false;
-  AddMocapOption(app, mocap, mocap_options);
-  app.add_option("--out", out, "the .ossadb file to write")->required();
-  app.add_option("--threshold", options.threshold_m,
+};
+
+DatabaseArguments ParseArguments(int argc, char** argv) {
+  CLI::App app("Build a posture database and its filtered pose graph from motion capture");
+  DatabaseArguments a;
+  AddMocapOption(app, a.mocap, a.motion);
+  app.add_option("--out", a.out, "the .ossadb file to write")->required();
+  app.add_option("--threshold", a.options.threshold_m,
                  "postures nearer than this to a kept one are dropped, metres")
       ->capture_default_str()
       ->check(Positive());
-  app.add_option("--filter", filter, "distance of the filter")
+  app.add_option("--filter", a.filter, "distance of the filter")
       ->capture_default_str()
       ->check(CLI::IsMember({"sum-squared", "max-joint"}));
-  app.add_option("--seed", mocap_options.seed, "random seed of the authored clips' variation")
+  app.add_option("--seed", a.motion.seed, "random seed of the authored clips' variation")
       ->capture_default_str();
-  AddMappingOption(app, mocap_options.mapping_file);
-  app.add_flag("--quiet", quiet, "no progress");
+  AddMappingOption(app, a.motion.mapping_file);
+  app.add_flag("--quiet", a.quiet, "no progress");
   Parse(app, argc, argv);
-  CheckNotOtherKind("--out", out, ".ossadb");
-  std::vector<std::string> inputs = mocap;
-  inputs.push_back(mocap_options.mapping_file);
-  CheckOutputs({out}, inputs);
-  AtomicFile::CheckWritable(out);
+  a.options.filter = a.filter == "max-joint" ? recon::DatabaseFilter::kMaxJoint
+                                             : recon::DatabaseFilter::kSumSquared;
+  return a;
+}
 
-  options.filter =
-      filter == "max-joint" ? recon::DatabaseFilter::kMaxJoint : recon::DatabaseFilter::kSumSquared;
-  mocap_options.stop = Interrupted;
-  const auto motions = recon::LoadMocap(mocap, mocap_options);
+void CheckOutput(const DatabaseArguments& a) {
+  CheckNotOtherKind("--out", a.out, ".ossadb");
+  std::vector<std::string> inputs = a.mocap;
+  inputs.push_back(a.motion.mapping_file);
+  CheckOutputs({a.out}, inputs);
+  AtomicFile::CheckWritable(a.out);
+}
+
+void CheckNotInterrupted() {
   if (Interrupted()) throw InputError("database: interrupted; nothing was written");
+}
+
+}  // namespace
+
+int Database(int argc, char** argv) {
+  DatabaseArguments a = ParseArguments(argc, argv);
+  CheckOutput(a);
+  a.motion.stop = Interrupted;
+  const auto motions = recon::LoadMocap(a.mocap, a.motion);
+  CheckNotInterrupted();
   SayWarnings("database", motions);
-  const auto clips = ToPostures(motions, quiet);
-  const auto database = recon::PostureDatabase::Build(clips, options, Interrupted);
-  if (Interrupted()) throw InputError("database: interrupted; nothing was written");
-  database.Save(out);
-  fmt::print("{}: {} postures of {} in {} clips, {:.1f} edges a posture\n", out, database.size(),
+  const auto clips = ToPostures(motions, a.quiet);
+  const auto database = recon::PostureDatabase::Build(clips, a.options, Interrupted);
+  CheckNotInterrupted();
+  database.Save(a.out);
+  fmt::print("{}: {} postures of {} in {} clips, {:.1f} edges a posture\n", a.out, database.size(),
              database.source_postures(), database.clip_count(),
              static_cast<double>(database.edge_count()) / database.size());
   return 0;

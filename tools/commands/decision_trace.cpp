@@ -25,7 +25,7 @@ ordered_json MakeCandidate(const people::Decision& decision) {
                        {"area_m2", RoundToMillimetres(decision.area_m2)}};
   if (decision.classified) {
     json["score"] = RoundToMillimetres(decision.score);
-    // No score is enough: the rule asks for more observations.
+    // A threshold above 1 cannot be reached: the rule requires more observations.
     json["needed_score"] =
         decision.needed_score > 1 ? ordered_json() : ordered_json(decision.needed_score);
   }

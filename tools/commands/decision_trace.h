@@ -8,20 +8,20 @@
 
 namespace ossa::commands {
 
-/// The file of `ossa track --trace`: a JSON line a frame, with every piece of the scene and the
-/// rule that decided whether it is a person. It appears at the end.
+/// The file of `ossa track --trace`: a JSON line per frame with all segments of the scene and the
+/// rule that accepted or rejected each. It is complete or absent.
 class DecisionTrace {
  public:
-  /// "" writes nothing. Throws InputError where the file cannot be written.
+  /// `path` "" writes nothing. Throws InputError if the file cannot be written.
   explicit DecisionTrace(const std::string& path);
   /// Throws DiskFull.
   void Write(const tracker::BodyFrame& bodies);
-  /// Of what did not fit, what was whole before it: throws InputError that says how much.
+  /// On a full disk keeps the complete frames; throws InputError that says how many.
   void Finish();
 
  private:
   std::optional<LineFile> file_;
-  int64_t frames_ = 0;  // that are in it
+  int64_t frames_ = 0;  // written
   std::optional<DiskFull> full_;
 };
 

@@ -30,7 +30,7 @@ bool IsName(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), belongs);
 }
 
-// One line of the file, from left to right.
+// Parses one line of the file from left to right.
 class LineReader {
  public:
   LineReader(std::string_view text, std::string place) : rest_(text), place_(std::move(place)) {}
@@ -77,7 +77,7 @@ class LineReader {
     rest_.remove_prefix(word.size());
     return std::string(word);
   }
-  // As TOML's texts of one line, without escapes: names of files and words need none.
+  // A one-line TOML string, without escapes: names of files and words need none.
   std::string Quoted(char quote) {
     const size_t end = rest_.find(quote, 1);
     if (end == rest_.npos) Expect("a text that ends in this line");
@@ -92,7 +92,7 @@ class LineReader {
   std::string place_;
 };
 
-// What an option of one value takes of it.
+// The value for an option that takes one.
 void Give(CLI::Option& option, const DefaultValue& value) {
   const bool is_flag = option.get_items_expected_max() == 0;
   for (const std::string& text : value.values) {
@@ -126,7 +126,7 @@ std::optional<fs::path> DefaultsFile() {
   const char* xdg = std::getenv("XDG_CONFIG_HOME");
   const char* home = std::getenv("HOME");
   fs::path folder;
-  if (xdg != nullptr && *xdg == '/') {  // the specification: relative ones are to be ignored
+  if (xdg != nullptr && *xdg == '/') {  // by the specification relative ones are ignored
     folder = xdg;
   } else if (home != nullptr && *home != '\0') {
     folder = fs::path(home) / ".config";
@@ -184,7 +184,7 @@ void ApplyDefaults(CLI::App& app, std::string_view command) {
           fmt::format("{}: expected each option once, found '{}' again", place, value.name));
     }
     CLI::Option& option = FindOption(app, value, place);
-    if (option.count() > 0) continue;  // the command line wins
+    if (option.count() > 0) continue;  // the command line takes precedence
     try {
       Give(option, value);
     } catch (const CLI::ParseError& error) {

@@ -13,13 +13,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Any number of values, and not so many as belong together.
+// Whether an option takes any number of values, rather than a fixed tuple.
 bool Repeats(const CLI::Option& option) {
   return option.get_items_expected_max() > 1 &&
          option.get_items_expected_max() > option.get_items_expected_min();
 }
 
-// "TEXT:{on,off}=on" is a type, what the value may be, and a default.
+// "TEXT:{on,off}=on" is a type, the choices, and a default.
 std::string TypeOf(const CLI::Option& option) {
   const std::string name = option.get_type_name();
   const int together = option.get_items_expected_min();

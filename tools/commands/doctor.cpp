@@ -13,7 +13,7 @@
 namespace ossa::commands {
 namespace {
 
-// How many of them leave something to do.
+// The number of findings that need an action.
 int Show(const char* title, const std::vector<Finding>& findings, bool quiet) {
   int open = 0;
   if (!quiet) fmt::print("{}\n", title);

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 enum class Way { kFreenect, kPrimeSense, kMakersOwn, kNoCamera };
 
-// Numbers of vendor and product as the makers' drivers and udev rules have them: libfreenect's,
-// OpenNI2's, libfreenect2's, the Azure Kinect SDK's, librealsense's and OrbbecSDK's.
+// USB vendor and product ids from the makers' drivers and udev rules: libfreenect's, OpenNI2's,
+// libfreenect2's, the Azure Kinect SDK's, librealsense's and OrbbecSDK's.
 struct KnownDevice {
   std::string_view id;
   std::string_view name;
@@ -55,9 +55,9 @@ constexpr KnownDevice kDevices[] = {
 };
 
 struct UsbDevice {
-  fs::path folder;  // of the kernel's
+  fs::path folder;  // in sysfs
   KnownDevice known;
-  fs::path node;  // by which programs open it
+  fs::path node;  // the device file that programs open
 };
 
 std::string FirstWord(const fs::path& file) {
@@ -86,7 +86,7 @@ std::vector<UsbDevice> FindKnownDevices(const fs::path& root) {
   return devices;
 }
 
-// Of an interface of the device's, "1-2:1.0" of "1-2"; empty where none holds it.
+// The kernel driver of an interface of the device, "1-2:1.0" of "1-2"; empty if there is none.
 std::string FindVideoDriver(const UsbDevice& device) {
   std::error_code unreadable;
   const std::string prefix = device.folder.filename().string() + ":";
@@ -122,7 +122,7 @@ std::string ToDoFor(const UsbDevice& device) {
       device.node.string(), group);
 }
 
-// Motor and hub have their power from the USB; the camera has it from a supply of its own.
+// Motor and hub are powered by USB; the camera has a power supply of its own.
 bool IsWithoutPower(const std::vector<UsbDevice>& devices) {
   const auto has = [&](Way way) {
     return std::any_of(devices.begin(), devices.end(),
@@ -141,7 +141,7 @@ Finding TryDriver(const fs::path& file) {
           "install what it needs: apt install libopenni2-0 libfreenect0.5"};
 }
 
-// A camera under the ceiling is met in the middle of a run, which would end there.
+// The ceiling models are loaded in the middle of a run, which would end there.
 void ReadUsualModels() {
   const auto models = tracker::ModelSet::Shipped();
   tracker::LoadCeilingModels(models, tracker::LoadCeilingForest(models));

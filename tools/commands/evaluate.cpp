@@ -21,7 +21,7 @@ void CheckWritable(const std::string& path) {
   if (!path.empty()) AtomicFile::CheckWritable(path);
 }
 
-// Throws InputError where nothing can be noted in it.
+// Throws InputError if the model's card cannot be changed.
 nlohmann::ordered_json ReadCard(const std::string& path, const forest::ForestModel& model) {
   auto card = nlohmann::ordered_json::parse(model.manifest(), nullptr, false);
   const bool has_room =
@@ -94,10 +94,10 @@ int Evaluate(int argc, char** argv) {
   EvaluateArguments a;
   Declare(app, a);
   Parse(app, argc, argv);
-  if (a.json == "-") a.json.clear();  // stdout, as of track and compare: they are printed
+  if (a.json == "-") a.json.clear();  // stdout, as in track and compare: they are printed
   Check(a);
   const forest::ForestModel model = forest::ReadForestModel(a.model);
-  if (!a.card.empty()) {  // not after all the work
+  if (!a.card.empty()) {  // before the evaluation
     CheckWritable(a.model);
     ReadCard(a.model, model);
   }

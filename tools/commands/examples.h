@@ -5,16 +5,16 @@
 
 namespace ossa::commands {
 
-/// A command line as people type it, and what it is for.
+/// An example command line and its purpose.
 struct Example {
   std::string_view line;
   std::string_view purpose;
 };
 
-/// Of a subcommand; empty for what is none.
+/// The examples of a subcommand; empty for an unknown one.
 std::span<const Example> FindExamples(std::string_view command);
 
-/// "Examples:" and a line each, as --help shows them.
+/// "Examples:" and one line each, for --help.
 std::string ExamplesText(std::string_view command);
 
 }  // namespace ossa::commands

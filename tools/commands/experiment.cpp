@@ -46,7 +46,7 @@ std::string Names() {
   return names;
 }
 
-// Runs it with a progress bar and prints its tables and what it was run with.
+// Runs a study with a progress bar, and prints its tables and parameters.
 int RunAndPrint(const std::string& name, tools::ExperimentContext& context, bool quiet) {
   Progress progress(name, quiet);
   context.progress = [&](double done, double total, const std::string& note) {

@@ -12,7 +12,7 @@
 
 namespace ossa::commands {
 
-/// --floor auto|a,b,c,d: of recordings that have none.
+/// The option --floor auto|a,b,c,d, for recordings without a floor.
 class FloorOption {
  public:
   void AddTo(CLI::App& app) {
@@ -20,7 +20,7 @@ class FloorOption {
                    "floor of recordings that have none: auto, estimated from people who stand "
                    "straight, or a,b,c,d of ax + by + cz + d = 0, metres, a b c upwards");
   }
-  /// Throws UsageError for what is neither.
+  /// Throws UsageError for other values.
   void Check() {
     if (text_.empty() || text_ == "auto") return;
     Eigen::Vector4d p;
@@ -32,7 +32,7 @@ class FloorOption {
     }
     plane_ = p / p.head<3>().norm();
   }
-  /// Gives the floor to frames without one, and says so where none can be had.
+  /// Sets the floor of frames without one; prints a line if it cannot be estimated.
   void Apply(recon::SkeletonSequence& sequence, bool quiet) const {
     if (text_.empty()) return;
     const auto floor = plane_ ? plane_ : tracker::EstimateFloor(sequence);

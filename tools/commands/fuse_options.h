@@ -14,18 +14,19 @@ class App;
 
 namespace ossa::commands {
 
-/// How the skeletons of several cameras become one, the same for `ossa fuse` and `ossa track`.
+/// How the skeletons of several cameras are fused, the same for `ossa fuse` and `ossa track`.
 struct FuseArguments {
   std::string extrinsics = "auto";  // or a file
   std::string save_extrinsics;
   recon::EstimateExtrinsicsOptions estimate;
 
-  /// --extrinsics, --save-extrinsics and --max-offset.
+  /// Adds --extrinsics, --save-extrinsics and --max-offset.
   void AddTo(CLI::App& app);
-  /// Before hours of work: throws UsageError for a name that ends as another kind of file, and
-  /// InputError for an output that cannot be written and a file that is not of these recordings.
+  /// To be called before tracking: throws UsageError for a name with the extension of another kind
+  /// of file, and InputError for an output that cannot be written and a file that does not match
+  /// these recordings.
   void Check(std::span<const std::string> sources) const;
-  /// The file to be read; "" for auto.
+  /// The file to read; "" for auto.
   std::string File() const { return extrinsics == "auto" ? "" : extrinsics; }
 };
 
@@ -34,13 +35,13 @@ struct FusedRecordings {
   recon::Extrinsics cameras;
 };
 
-/// Fuses recordings, the first one's camera before: reads or finds where the cameras are, and says
-/// what it found unless quiet. `sources` are the recordings' names. Throws InputError.
+/// Fuses recordings in the camera space of the first: reads or estimates the extrinsics, and prints
+/// the estimate unless quiet. `sources` are the recordings' names. Throws InputError.
 FusedRecordings FuseRecordings(const FuseArguments& arguments, std::span<const std::string> sources,
                                std::span<const recon::SkeletonSequence> recordings, bool quiet);
 
-/// Writes what --out (empty: nothing) and --save-extrinsics ask for, either whatever befalls the
-/// other. `command` is whose failures are said. Throws InputError.
+/// Writes the files of --out (empty: none) and --save-extrinsics, each even if the other fails.
+/// `command` is named in error messages. Throws InputError.
 void WriteFused(const char* command, const FuseArguments& arguments, const std::string& out,
                 const FusedRecordings& fused, const recon::SkeletonWriteOptions& options);
 

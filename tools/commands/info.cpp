@@ -36,16 +36,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A kind of file: how it is known, and what is said of it.
+// A kind of file: how it is recognised, and how it is shown.
 struct FileKind {
   bool (*is)(const fs::path&);
   void (*show)(const fs::path&);
-  const char* extension = nullptr;  // a damaged one is known by it
-  // In place of `show`, of what says something of a body surface alone.
+  const char* extension = nullptr;  // recognises a damaged file
+  // Instead of `show`, for files that depend on a body surface.
   void (*show_with)(const fs::path&, const recon::BodySurface&) = nullptr;
 };
 
-// What a forest has learned besides its trees and proposals.
+// What a forest contains besides trees and proposals.
 std::string DescribeStages(const forest::ForestData& data) {
   std::string text = "no pose priors";
   if (!data.pose_priors.empty()) {
@@ -166,7 +166,7 @@ void ShowMesh(const fs::path& path, const recon::BodySurface& surface) {
 
 void ShowRefinement(const fs::path& path) {
   const auto cascade = recon::RefinementCascade::Load(path);
-  // How many people earlier stages were learned from the file does not keep.
+  // The number of people of earlier stages is not stored in the file.
   const bool is_one = cascade.stages.size() + cascade.bone_conditioned.size() == 1;
   const auto count = [](const std::vector<recon::RefinementStage>& stages, const char* kind) {
     return fmt::format("{} {}stage{}", stages.size(), kind, stages.size() == 1 ? "" : "s");
@@ -194,7 +194,7 @@ void ShowPoseNetwork(const fs::path& path) {
              static_cast<double>(fs::file_size(path)) * 1e-6);
 }
 
-// Its frames are read through: many a recording does not know how many it has, or what is broken.
+// Reads all frames: many recordings do not store their number, or are damaged.
 void ShowDepthRecording(const SourceArguments& arguments) {
   const auto source = OpenSource(arguments, false);
   Progress progress("reading", !CanMoveCursor());  // for who watches alone
@@ -220,7 +220,7 @@ void ShowDepthRecording(const SourceArguments& arguments) {
       camera.cy);
 }
 
-// What a camera says of itself; who wants its images records them first.
+// The properties of a camera; images must be recorded first.
 void ShowDevice(const SourceArguments& arguments) {
   const auto source = OpenSource(arguments, false);
   const depth::Camera& camera = source->camera();
@@ -228,7 +228,7 @@ void ShowDevice(const SourceArguments& arguments) {
              camera.height, camera.fx, camera.fy, camera.cx, camera.cy);
 }
 
-// Which way up, where that is asked.
+// The image rotation, if asked for.
 void ShowUpright(const SourceArguments& arguments) {
   tracker::Tracker tracker;
   FindUpright(tracker, *OpenSource(arguments, true), arguments, true);
@@ -250,8 +250,8 @@ void ShowSkeletonClip(const recon::SkeletonClip& clip) {
              OnOneLine(name), frames.size(), seconds, bodies);
 }
 
-// Whatever else it is: skeletons of some SDK's, alone or in a folder, or the readers say why not.
-// Of files that hold two side by side both, unless the path says which.
+// All other files: skeletons of an SDK, alone or in a folder; the readers report errors. For files
+// with two kinds both are shown, unless the path selects one.
 void ShowSkeletons(const fs::path& path) {
   recon::SkeletonReadOptions reading;
   reading.columns = "observed";
@@ -272,8 +272,8 @@ void ShowSkeletons(const fs::path& path) {
   for (const recon::SkeletonClip& clip : clips) ShowSkeletonClip(clip);
 }
 
-// The first kind that knows the file by its content, or by its extension, shows it; of others depth
-// images go before skeletons.
+// The first kind that recognises the file by content, or by extension, shows it; of others depth
+// images are tried before skeletons.
 constexpr std::array kKinds = {
     FileKind{forest::IsForestModel, ShowModel, ".ossa"},
     FileKind{recon::PostureDatabase::IsFile, ShowDatabase, ".ossadb"},
@@ -285,10 +285,10 @@ constexpr std::array kKinds = {
     FileKind{recon::RefinementCascade::IsFile, ShowRefinement, ".ossarefine"},
     FileKind{recon::PoseNetwork::IsFile, ShowPoseNetwork, ".ossanet"},
     FileKind{tools::IsDataset, ShowDataset},
-    FileKind{tools::IsUnfinishedDataset, ShowDataset},  // which refuses it in words
+    FileKind{tools::IsUnfinishedDataset, ShowDataset},  // refuses it with a message
 };
 
-// FILE#truth, FILE.bag#/topic and the like are files, too; of a device its driver knows.
+// FILE#truth, FILE.bag#/topic and similar are files, too; devices are described by their driver.
 void ExpectIsThere(const std::string& file) {
   if (IsDevice(file)) return;
   const bool is_there = fs::exists(file) || fs::exists(recon::FindSkeletonFile(file)) ||
@@ -343,7 +343,7 @@ int Info(int argc, char** argv) {
   }
   ExpectIsThere(file.name);
   if (!picture.empty()) WriteInfoPicture(file, picture);
-  // Who says how depths are read wants to see them so, a DATASET's, too.
+  // With options for reading depths, a DATASET is read as images, too.
   const size_t others = 2 + app.count("--picture") + app.count("--surface");
   const bool is_depth = app.count_all() > others;
   Show(file, surface, is_depth);

@@ -39,7 +39,7 @@ tools::ContactSheet SheetFor(int64_t frames, const depth::Camera& camera) {
   return {count, std::min(count, kColumns), kTileWidth, height};
 }
 
-// The first, the last and those between, evenly.
+// Evenly spaced indices from first to last.
 int64_t FrameOfTile(int tile, int64_t frames) {
   return frames <= kTiles ? tile : tile * (frames - 1) / (kTiles - 1);
 }
@@ -56,7 +56,7 @@ tools::ContactSheet MakeDatasetSheet(const std::string& folder) {
   return sheet;
 }
 
-// Calls `take` for every frame with its number, as long as it wants more. The number of frames.
+// Calls `take` with every frame and its index until it returns false. Returns the number of frames.
 template <typename Take>
 int64_t ForEachFrame(const SourceArguments& arguments, Take take) {
   const auto source = OpenSource(arguments, true);
@@ -75,7 +75,7 @@ int64_t ForEachFrame(const SourceArguments& arguments, Take take) {
   }
 }
 
-// Read twice: many a recording does not know how many frames it has.
+// Read twice, because many recordings do not store their number of frames.
 tools::ContactSheet MakeRecordingSheet(const SourceArguments& arguments) {
   const int64_t frames = ForEachFrame(arguments, [](const auto&, int64_t) {});
   if (frames == 0) throw InputError(arguments.name + ": no frame came");
@@ -89,7 +89,7 @@ tools::ContactSheet MakeRecordingSheet(const SourceArguments& arguments) {
   return std::move(*sheet);
 }
 
-// Bars of one of the measures that `ossa evaluate --card` noted, a series a data set.
+// A bar chart of a measure stored by `ossa evaluate --card`, one series per data set.
 std::string Bars(const nlohmann::ordered_json& accuracy, const char* measure,
                  const std::string& title) {
   std::vector<std::string> series, groups;

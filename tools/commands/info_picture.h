@@ -5,10 +5,10 @@
 
 namespace ossa::commands {
 
-/// `ossa info FILE --picture`: of a data set or of depth images a contact sheet, FILE.png, twelve
-/// frames from the first to the last; of a forest model its card, FILE.html: accuracy by part and
-/// joint, and what it was learned from. Throws UsageError where the name does not end so or the
-/// file is of another kind.
+/// Writes the picture of `ossa info FILE --picture`: for a data set or depth images a contact
+/// sheet, FILE.png, with twelve frames from the first to the last; for a forest model its card,
+/// FILE.html: accuracy by part and joint, and its training data. Throws UsageError for another
+/// extension and another kind of file.
 void WriteInfoPicture(const SourceArguments& arguments, const std::string& path);
 
 }  // namespace ossa::commands

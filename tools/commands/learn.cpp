@@ -28,7 +28,7 @@ bool SayWarningsOf(const std::vector<recon::SkeletonClip>& clips) {
 
 constexpr size_t kFewestPairs = recon::LearnOptions::kFewestPairs;
 
-/// Throws InputError where a file would be written that knows nothing.
+/// Throws InputError if the pairs are too few to learn anything.
 void CheckPairs(const std::vector<std::string>& observed,
                 const std::vector<recon::PosturePair>& pairs) {
   if (pairs.size() >= kFewestPairs) return;

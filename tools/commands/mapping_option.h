@@ -20,8 +20,8 @@ names occurs. The names of CMU, HDM05, BioVision, Mixamo, 3ds Max, Rigify, Unity
 Rokoko, Perception Neuron and others are known.)";
 }
 
-/// --mapping of a command that reads mocap or skeletons. Where `help`, the footer describes the
-/// file.
+/// Adds --mapping for a command that reads mocap or skeletons. With `help`, the footer describes
+/// the file.
 inline void AddMappingOption(CLI::App& app, std::string& mapping_file, bool help = true) {
   app.add_option("--mapping", mapping_file, "text file that maps unknown joint names, see below");
   if (help) app.footer(MappingHelp());

@@ -9,21 +9,21 @@
 
 namespace ossa::commands {
 
-/// --physics and how its character is built, the same for every command that has one.
+/// The option --physics and those of its character, the same for all commands.
 struct MechanicsOptions {
   std::string physics = "off", control = "pd";
   tracker::MechanicsBuild build;
-  std::string scene;  // file; all people in one world
+  std::string scene;  // file; all people are simulated in one world
   bool on() const { return physics == "on"; }
   bool follows() const { return on() || !scene.empty(); }
-  /// What the scene file says, with characters as they are asked for here; none without one.
+  /// The scene of the file, with characters built as requested here; nothing without a file.
   std::optional<tracker::SceneOptions> Scene() const {
     if (scene.empty()) return std::nullopt;
     tracker::SceneOptions options = tracker::LoadScene(scene);
     options.people = build;
     return options;
   }
-  /// Throws UsageError for a character that is described and not asked for.
+  /// Throws UsageError if a character is configured without being used.
   void Check() const {
     if (follows() || !(build.motors || build.hinges || build.joint_limits)) return;
     const char* option = build.motors   ? "--control motor"

@@ -10,17 +10,17 @@
 
 namespace ossa::commands {
 
-/// Offline, of `ossa reconstruct` alone: no method of recon::Reconstructor.
+/// An offline filter of `ossa reconstruct`, not a recon::Reconstructor.
 inline constexpr const char* kButterworth = "butterworth";
 
-/// What a method reads and keeps; butterworth, and what is no method, read nothing.
+/// The properties of a method; butterworth and unknown names read nothing.
 inline const recon::MethodInfo& RequireMethodInfo(const std::string& method) {
   static constexpr recon::MethodInfo kReadsNothing{.name = kButterworth};
   const recon::MethodInfo* info = recon::FindMethod(method);
   return info != nullptr ? *info : kReadsNothing;
 }
 
-/// Names of the methods for which `holds` does, for messages.
+/// The names of the methods for which `holds` is true, for messages.
 inline std::string MethodsThat(bool (*holds)(const std::string&)) {
   auto methods = recon::ReconstructionMethods();
   methods.emplace_back(kButterworth);
@@ -31,11 +31,11 @@ inline std::string MethodsThat(bool (*holds)(const std::string&)) {
   return names;
 }
 
-/// An option that not every method reads.
+/// An option that only some methods read.
 struct MethodOption {
   const char* name;
   bool (*is_read_by)(const std::string& method);
-  bool is_file = false;  // something to use: whoever tries all methods gives it to all of them
+  bool is_file = false;  // a model file, which may be given to all methods when several are tried
 };
 
 inline bool IsShum2013(const std::string& method) { return method == "shum-2013"; }
@@ -70,9 +70,9 @@ inline void SayNotRead(const std::string& option, const std::string& method) {
   Say(fmt::format("ossa: {} is not read by --method {}\n", option, method));
 }
 
-/// Throws UsageError for an option that was given and that the method does not read: what comes out
-/// would be without what was asked for. Of a file it is said unless `quiet`; the word none asks for
-/// nothing. Options that a command does not have are not given.
+/// Throws UsageError for a given option that the method does not read, because the result would not
+/// be as requested. For files a line is printed instead, unless `quiet`; the value "none" is always
+/// accepted. Options that the command does not have count as not given.
 inline void CheckRead(const CLI::App& app, const std::string& method, bool quiet) {
   for (const auto& [name, is_read_by, is_file] : kMethodOptions) {
     const CLI::Option* option = app.get_option_no_throw(name);
@@ -87,7 +87,7 @@ inline void CheckRead(const CLI::App& app, const std::string& method, bool quiet
   }
 }
 
-/// Throws UsageError for a method that works by what was learned when --learned names nothing.
+/// Throws UsageError for a method that needs a learned model, if --learned is missing.
 inline void CheckLearned(const std::string& method, const std::string& learned) {
   const bool is_needed = RequireMethodInfo(method).learned == recon::Reads::kRequired;
   if (!is_needed || (!learned.empty() && learned != "none")) return;
@@ -96,14 +96,14 @@ inline void CheckLearned(const std::string& method, const std::string& learned) 
                   method, learned.empty() ? "none" : "--learned none"));
 }
 
-/// Throws UsageError where a method is given both to complete postures by.
+/// Throws UsageError if both sources for completing postures are given.
 inline void CheckOneOf(const std::string& method, const std::string& database,
                        const std::string& prior) {
   if (!ReadsPrior(method) || database.empty() || prior.empty()) return;
   throw UsageError("--database and --prior: expected one of them, " + method + " completes by one");
 }
 
-/// --bones: which frames tell how long a person's bones are.
+/// The option --bones: which frames determine a person's bone lengths.
 struct BonesOption {
   std::string from = "so-far";
   bool of_recording() const { return from == "recording"; }
@@ -114,7 +114,7 @@ struct BonesOption {
         ->capture_default_str()
         ->check(CLI::IsMember({"so-far", "recording"}));
   }
-  /// Throws UsageError for a method that moves joints alone.
+  /// Throws UsageError for a method that does not keep bone lengths.
   void Check(const std::string& method) const {
     if (!of_recording() || KeepsBones(method)) return;
     throw UsageError(

@@ -7,7 +7,7 @@
 
 namespace ossa::commands {
 
-/// --amc-fps of a command that reads motion.
+/// Adds --amc-fps for a command that reads motion.
 inline void AddAmcRateOption(CLI::App& app, recon::MocapOptions& options) {
   app.add_option("--amc-fps", options.amc_hz,
                  "frame rate of AMC files, which do not state it, Hz (default 120, as CMU and "
@@ -15,7 +15,7 @@ inline void AddAmcRateOption(CLI::App& app, recon::MocapOptions& options) {
       ->check(CLI::Range(1.0, 1e4));
 }
 
-/// --mocap and --amc-fps of a command that learns from motion: what recon::LoadMocap takes.
+/// Adds --mocap and --amc-fps for a command that learns from motion: the input of recon::LoadMocap.
 inline void AddMocapOption(CLI::App& app, std::vector<std::string>& mocap,
                            recon::MocapOptions& options) {
   app.add_option("--mocap", mocap,

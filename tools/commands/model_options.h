@@ -7,7 +7,7 @@
 
 namespace ossa::commands {
 
-/// Options of the commands that track which models are used, but for the body of the surface fit.
+/// Adds the model options of commands that track, except the body of the surface fit.
 inline void AddModelOptions(CLI::App& app, tracker::ModelFiles& files) {
   app.add_option("--model", files.forest, "forest model, .ossa (default: the shipped one)");
   app.add_option(
@@ -28,7 +28,7 @@ inline void AddModelOptions(CLI::App& app, tracker::ModelFiles& files) {
                  "ceiling (default: shipped, with the shipped refinement)");
 }
 
-/// --mount: how the camera is mounted.
+/// Adds --mount: how the camera is mounted.
 inline void AddMountOption(CLI::App& app, std::string& mount) {
   app.add_option(
          "--mount", mount,

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether both names are of one file, also where there is none yet.
+// Whether both names refer to one file, which need not exist.
 bool IsSameFile(const fs::path& a, const fs::path& b) {
   std::error_code unknown;
   if (fs::equivalent(a, b, unknown)) return true;
@@ -27,8 +27,8 @@ bool IsSameFile(const fs::path& a, const fs::path& b) {
              fs::weakly_canonical(fs::absolute(b, unknown), unknown);
 }
 
-// Whether an input folder has the file among what is read of it: images, labels, truth and the like
-// of a data set or a folder of frames. Results may lie beside them.
+// Whether a file is part of an input folder: images, labels, truth and the like of a data set or a
+// folder of frames. Results may be in the same folder.
 bool IsReadOf(const fs::path& folder, const fs::path& output) {
   std::error_code unknown;
   if (!fs::is_directory(folder, unknown) || !fs::exists(output, unknown)) return false;
@@ -156,7 +156,7 @@ void WriteOptions::Check(const std::string& out) const {
 
 recon::SkeletonWriteOptions WriteOptions::For(const std::string& out) const {
   const bool is_glb = fs::path(out).extension() == ".glb";
-  // Both say also what is fitted and what a page shows, whatever is written.
+  // Both also apply to the fit and the page, whatever is written.
   return tracker::LoadWriteOptions(out, {names, is_glb ? surface : "", is_glb ? mesh : ""});
 }
 

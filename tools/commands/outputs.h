@@ -13,59 +13,60 @@
 
 namespace ossa::commands {
 
-/// Throws UsageError when two outputs are one file, of which the first would be lost, or an output
-/// is one of the inputs, or of the files that an input folder is made of: a recording would be
-/// replaced by what was made of it. Outputs may be folders. Empty names are
-/// options that were not given; `#truth` and the like after an input's name are no part of it.
+/// Throws UsageError if two outputs are the same file, or an output is one of the inputs, or a file
+/// that an input folder consists of: it would be overwritten. Outputs may be folders. Empty names
+/// are options that were not given; `#truth` and similar suffixes of an input's name are ignored.
 void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-// Which name a file of one format may have, the same for every option: where its kind is told by
-// the content (models, databases and what else is learned) or by the option (--json) any, but for
-// one that ends as another kind of file; where programs tell it by the name (.oni, .png, .html) one
-// that ends so. Of an option that was not given the name is empty.
+// Rules for output names, the same for all options: where the kind is determined by content
+// (models, databases and other learned files) or by the option (--json), any name except one with
+// the extension of another kind; where it is determined by name (.oni, .png, .html), a name with
+// this extension. The name is empty for an option that was not given.
 
-/// Throws UsageError for a name that does not end so.
+/// Throws UsageError for a name without this extension.
 void CheckExtension(const char* option, const std::string& path, const char* extension);
 
-/// Throws UsageError for a name that ends as another kind of file that ossa writes.
+/// Throws UsageError for a name with the extension of another kind of file that ossa writes.
 void CheckNotOtherKind(const char* option, const std::string& path, const char* extension);
 
-/// Throws UsageError for a name whose extension is of no skeleton format that is written.
+/// Throws UsageError for a name without the extension of a skeleton format that can be written.
 void CheckSkeletonName(const std::string& path);
 
-/// Says of each file that an ossa that was killed left of this output that it is there, and stays.
+/// Prints a line for each leftover of this output from a killed run, which is kept.
 void SayLeftovers(const std::string& path);
 
-/// "27 of 150 frames"; "27 frames" where nobody knows of how many.
+/// "27 of 150 frames"; "27 frames" if the total is unknown.
 std::string FramesText(int64_t frames, std::optional<int64_t> of);
 
-/// The file appears when it is complete; an empty name is an option that was not given.
+/// Writes the file atomically; an empty name is an option that was not given.
 void WriteText(const std::string& path, const std::string& text);
 
-/// Does each, whatever befell another: throws the first failure, after `command` said the others.
+/// Runs all tasks even if some fail: throws the first failure, after the others were printed under
+/// the name of `command`.
 void DoEach(const char* command, std::initializer_list<std::function<void()>> steps);
 
-/// What did not fit, and how many frames of it are kept.
+/// A message about a full disk and the number of frames kept.
 InputError NamingWhatIsKept(const DiskFull& full, int64_t kept, int64_t of);
 
-/// Ends a file that does not fit after its last whole frame; the failure says how many are kept.
+/// Finishes a file on a full disk after its last complete frame; throws with the number of frames
+/// kept.
 InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
 
-/// The options --bvh-names and --mesh: how skeletons are written.
+/// The options --bvh-names and --mesh for writing skeletons.
 struct WriteOptions {
   std::string names, mesh;
-  std::string surface;    // whose skin --mesh is; "": the shipped one
-  bool has_page = false;  // shown in browsers, too, which wear the same skin
+  std::string surface;    // the surface that --mesh belongs to; "": the shipped one
+  bool has_page = false;  // also shown in a browser, with the same skin
   void AddTo(CLI::App& app);
-  /// --surface, of commands that have no fit to pose one.
+  /// Adds --surface, for commands without a surface fit.
   void AddSurfaceTo(CLI::App& app);
-  /// Throws UsageError where one was given that `out` does not read.
+  /// Throws UsageError for a given option that the format of `out` does not use.
   void Check(const std::string& out) const;
-  /// Loads what a .glb's people wear. Throws InputError.
+  /// Loads the skin for a .glb. Throws InputError.
   recon::SkeletonWriteOptions For(const std::string& out) const;
 };
 
-/// recon::WriteSkeletons that keeps what fits.
+/// As recon::WriteSkeletons, but keeps the complete frames on a full disk.
 void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequence& sequence,
                            const recon::SkeletonWriteOptions& options = {});
 

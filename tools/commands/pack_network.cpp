@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "depth/base/atomic_file.h"
@@ -19,37 +20,51 @@
 namespace ossa::commands {
 namespace {
 
-// The numbers of a NumPy file of one dimension, float32.
+[[noreturn]] void Refuse(const std::string& path, const char* expected) {
+  throw InputError(fmt::format("{}: expected {}", path, expected));
+}
+
+// Format 1.0 of .npy files: magic number and version, then the header's length (uint16, little
+// endian) and the header, a Python dictionary.
+constexpr std::array<char, 8> kNpyStart = {'\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0};
+
+std::string ReadNpyHeader(std::ifstream& file, const std::string& path) {
+  std::array<char, kNpyStart.size() + 2> start{};
+  file.read(start.data(), start.size());
+  if (!file || std::memcmp(start.data(), kNpyStart.data(), kNpyStart.size()) != 0) {
+    Refuse(path, "a NumPy file (.npy, 1.0)");
+  }
+  const size_t length = static_cast<uint8_t>(start[8]) + 256U * static_cast<uint8_t>(start[9]);
+  std::string header(length, '\0');
+  file.read(header.data(), static_cast<std::streamsize>(header.size()));
+  if (!file) Refuse(path, "float32 numbers of one dimension");
+  return header;
+}
+
+// The length of a one-dimensional float32 array.
+size_t ParseArrayLength(const std::string& header, const std::string& path) {
+  constexpr size_t kMost = size_t{1} << 26U;  // numbers; by hand: forty times the shipped network
+  constexpr std::string_view kShape = "'shape': (";
+  const size_t shape = header.find(kShape);
+  size_t count = 0;
+  std::string_view rest;
+  if (header.find("'<f4'") != std::string::npos && shape != std::string::npos) {
+    const char* const end = header.data() + header.size();
+    const auto read = std::from_chars(header.data() + shape + kShape.size(), end, count);
+    if (read.ec == std::errc()) rest = std::string_view(read.ptr, end);
+  }
+  if (!rest.starts_with(",)") || count > kMost) Refuse(path, "float32 numbers of one dimension");
+  return count;
+}
+
 std::vector<float> ReadNumbers(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path + ": cannot be read");
-  const auto fail = [&](const char* expected) {
-    throw InputError(fmt::format("{}: expected {}", path, expected));
-  };
-  // Of the format 1.0: magic, version, length of the head.
-  std::array<char, 10> start{};
-  constexpr std::array<char, 8> kStart = {'\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0};
-  file.read(start.data(), start.size());
-  if (!file || std::memcmp(start.data(), kStart.data(), kStart.size()) != 0) {
-    fail("a NumPy file (.npy, 1.0)");
-  }
-  const size_t length = static_cast<uint8_t>(start[8]) + 256U * static_cast<uint8_t>(start[9]);
-  std::string head(length, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  const size_t shape = head.find("'shape': (");
-  if (!file || head.find("'<f4'") == std::string::npos || shape == std::string::npos) {
-    fail("float32 numbers of one dimension");
-  }
-  constexpr size_t kMost = size_t{1} << 26U;  // numbers; by hand: forty times what ours has
-  size_t count = 0;
-  const char* const digits = head.data() + shape + std::strlen("'shape': (");
-  const auto read = std::from_chars(digits, head.data() + head.size(), count);
-  const std::string_view rest(read.ptr, head.data() + head.size());
-  if (read.ec != std::errc() || !rest.starts_with(",)") || count > kMost) {
-    fail("float32 numbers of one dimension");
-  }
-  if (std::filesystem::file_size(path) != start.size() + length + count * sizeof(float)) {
-    fail("as many numbers as its head says");
+  const std::string header = ReadNpyHeader(file, path);
+  const size_t count = ParseArrayLength(header, path);
+  const size_t begin = kNpyStart.size() + 2 + header.size();
+  if (std::filesystem::file_size(path) != begin + count * sizeof(float)) {
+    Refuse(path, "as many numbers as its head says");
   }
   std::vector<float> numbers(count);
   file.read(reinterpret_cast<char*>(numbers.data()),

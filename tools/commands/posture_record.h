@@ -5,7 +5,7 @@
 
 namespace ossa::commands {
 
-/// Tracked bodies as --posture and --mode say that files get them.
+/// Tracked bodies as --posture and --mode request them for files.
 class PostureRecorder {
  public:
   explicit PostureRecorder(const TrackOptions& options);

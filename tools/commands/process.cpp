@@ -17,7 +17,7 @@
 namespace ossa::commands {
 namespace {
 
-// Of the first interruption, on the steady clock; 0: none yet.
+// The time of the first interruption, steady clock; 0: none yet.
 volatile std::sig_atomic_t interrupted = 0;
 volatile int64_t interrupted_at_ms = 0;
 
@@ -27,8 +27,8 @@ int64_t Now_ms() {
   return int64_t{1000} * now.tv_sec + now.tv_nsec / 1'000'000;
 }
 
-// timeout(1), mpirun and scripts may send the same signal to the process and to its group: two at
-// once are one.
+// timeout(1), mpirun and scripts may send the same signal to the process and to its group: two
+// within this time count as one.
 void NoteInterrupt(int signal) {
   constexpr int64_t kImpatient_ms = 500;  // by hand
   const int64_t now_ms = Now_ms();
@@ -41,7 +41,7 @@ void NoteInterrupt(int signal) {
   }
 }
 
-// Not SIG_IGN, which the programs that we start would inherit.
+// Not SIG_IGN, which started programs would inherit.
 void FailTheWrite(int) {}
 
 }  // namespace
@@ -51,7 +51,8 @@ bool Interrupted() { return interrupted != 0; }
 void PrepareProcess() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // The lowest number that is free is this one; what is open for reading cannot be printed to.
+    // open() returns the lowest free number, which is this one; it is opened for reading, so that
+    // printing to it fails.
     if (open("/dev/null", O_RDONLY) != stream) break;
   }
   std::signal(SIGINT, NoteInterrupt);

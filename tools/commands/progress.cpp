@@ -14,9 +14,9 @@ double Now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// At the pace so far; nothing before that says something.
+// The time left at the mean rate; nothing while that is unreliable.
 std::string TimeLeft(double elapsed_s, double share) {
-  constexpr double kSoonest_s = 0.5;  // by hand: rates of less jump
+  constexpr double kSoonest_s = 0.5;  // by hand: shorter rates vary too much
   if (elapsed_s < kSoonest_s || share <= 0.0 || share >= 1.0) return {};
   const auto left_s = static_cast<int64_t>(elapsed_s * (1.0 - share) / share + 0.5);
   if (left_s < 3600) return fmt::format("{}:{:02} left ", left_s / 60, left_s % 60);

@@ -13,8 +13,8 @@ namespace {
 class Bars {
  public:
   void Update(uint64_t done, uint64_t of) {
-    constexpr double kMoment_s = 0.5;  // by hand: what is over by then needs no bar
-    if (!bar_ || done < done_) {       // another file's
+    constexpr double kMoment_s = 0.5;  // by hand: shorter reads need no bar
+    if (!bar_ || done < done_) {       // of another file
       bar_.reset();
       bar_.emplace("reading", false);
       since_.emplace();
@@ -26,7 +26,7 @@ class Bars {
 
  private:
   std::optional<Progress> bar_;
-  std::optional<Stopwatch> since_;  // that it began
+  std::optional<Stopwatch> since_;  // start of reading
   uint64_t done_ = 0;
 };
 

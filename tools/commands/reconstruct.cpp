@@ -39,7 +39,7 @@ namespace {
 
 struct ReconstructArguments {
   std::string skeletons, out;
-  tracker::ModelFiles files;  // those without images
+  tracker::ModelFiles files;  // the models that need no images
   recon::ReconstructorOptions options;
   recon::SkeletonReadOptions read;
   MechanicsOptions mechanics;
@@ -50,13 +50,13 @@ struct ReconstructArguments {
   WriteOptions write;
   std::vector<double> weights;
   double cutoff_hz = 6.0;
-  std::string lag;  // as --lag says, "" what goes with the method
+  std::string lag;  // value of --lag; "": the default of the method
   bool quiet = false;
   bool no_reliability = false;
 };
 
-/// What is learned of the recordings' sensor: the file that was named; else, for methods that take
-/// a correction, the shipped one of the sensor that all recordings are of.
+/// The correction for the recordings' sensor: the named file; else, for methods that use a
+/// correction, the shipped one if all recordings are of one known sensor.
 std::string LearnedFor(const ReconstructArguments& a,
                        const std::vector<recon::SkeletonClip>& clips) {
   if (a.files.learned == "none" || !ReadsLearned(a.options.method)) return {};
@@ -77,8 +77,8 @@ std::string LearnedFor(const ReconstructArguments& a,
   return tracker::ShippedFile(known->correction).string();
 }
 
-/// Whether --out is a folder: of several recordings, and of one that is in a folder or archive
-/// where --out has no extension. Throws UsageError for several and a name that ends as one file's.
+/// Whether --out is a folder: for several recordings, and for one in a folder or archive if --out
+/// has no extension. Throws UsageError for several recordings and a name with an extension.
 bool GoesToFolder(const ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips) {
   const std::filesystem::path out(a.out);
   if (clips.size() == 1) return out.extension().empty() && !clips[0].name.empty();
@@ -146,7 +146,7 @@ void AddLagOption(CLI::App& app, ReconstructArguments& a) {
       ->check(CLI::IsMember({"0", "1", "2", "whole"}));
 }
 
-/// How the result is smoothed: bones that have constant lengths keep them.
+/// The smoothing of the result, which keeps constant bone lengths.
 recon::LagOptions LagFor(const ReconstructArguments& a) {
   const std::string usual = RequireMethodInfo(a.options.method).smoothed_in_files ? "whole" : "0";
   const std::string& lag = a.lag.empty() ? usual : a.lag;
@@ -173,7 +173,7 @@ void CheckDynamics(const ReconstructArguments& a) {
   }
 }
 
-/// Before hours of work: one file holds one recording.
+/// Checked before the work: one file holds one recording.
 void CheckDynamicsOf(const ReconstructArguments& a, size_t recordings) {
   if (a.dynamics.empty()) return;
   if (recordings > 1) {
@@ -182,7 +182,7 @@ void CheckDynamicsOf(const ReconstructArguments& a, size_t recordings) {
   AtomicFile::CheckWritable(a.dynamics);
 }
 
-/// All people of a recording in one world. `update`: as FollowMechanically's progress.
+/// Simulates all people of a recording in one world. `update`: as FollowMechanically's progress.
 void PlayScene(const tracker::SceneOptions& options, recon::SkeletonSequence& sequence,
                const ReconstructArguments& a, const std::function<bool(size_t)>& update) {
   tracker::Scene scene(options);
@@ -274,7 +274,7 @@ void LoadModels(ReconstructArguments& a, const std::vector<recon::SkeletonClip>&
   a.options.learned_file = LearnedFor(a, clips);
 }
 
-/// Where the recordings' results go: one file, or a folder with a file each.
+/// The destination of the results: one file, or a folder with a file for each.
 class ClipFiles {
  public:
   ClipFiles(const ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips)
@@ -301,7 +301,7 @@ class ClipFiles {
   recon::SkeletonWriteOptions write_;
 };
 
-/// The rounds through each recording's frames: bones, postures, mechanics; and how far they are.
+/// The passes over each recording's frames (bones, postures, mechanics) and their progress.
 class Rounds {
  public:
   Rounds(const ReconstructArguments& a, const std::optional<tracker::SceneOptions>& scene,
@@ -313,11 +313,12 @@ class Rounds {
         progress_("reconstruct", a.quiet) {
     for (const auto& clip : clips) total_ += clip.sequence.frames.size();
   }
-  /// Interrupted: the frames that were ready by then.
+  /// If interrupted: the frames finished by then.
   recon::SkeletonSequence Make(const recon::SkeletonClip& clip) {
     options_.best.refined_joints = clip.sequence.sensor == recon::kRefinedJoints;
     recon::SkeletonSequence made = Complete(clip.sequence, Bones(clip.sequence));
-    made = recon::SmoothSequence(made, LagFor(a_));  // before: the character keeps the floor
+    // Before the simulation, whose character stays above the floor.
+    made = recon::SmoothSequence(made, LagFor(a_));
     if (moves()) Move(made);
     if (Interrupted()) made.frames.resize(std::min(made.frames.size(), ready_));
     return made;
@@ -365,8 +366,8 @@ class Rounds {
   std::optional<tracker::SceneOptions> scene_;
   int count_;
   Progress progress_;
-  size_t done_ = 0, total_ = 0;  // frames: done in all rounds, and of all recordings
-  size_t ready_ = 0;             // of the recording at hand
+  size_t done_ = 0, total_ = 0;  // frames: finished over all passes, and of all recordings
+  size_t ready_ = 0;             // of the current recording
 };
 
 }  // namespace
@@ -378,7 +379,7 @@ int Reconstruct(int argc, char** argv) {
   Parse(app, argc, argv);
   CheckArguments(app, a);
   SetLocalPca(a);
-  const auto scene = a.mechanics.Scene();  // its faults are found before hours of work
+  const auto scene = a.mechanics.Scene();  // errors are reported before the work
   const auto clips = ReadClips(a);
   const ClipFiles files(a, clips);
   LoadModels(a, clips);

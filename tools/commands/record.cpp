@@ -41,8 +41,8 @@ enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted };
 struct Recorded {
   int64_t frames = 0;
   int64_t dropped = 0;
-  std::optional<int64_t> of;  // frames that are to be recorded
-  double seconds = 0.0;       // from the first frame's beginning to the last one's end
+  std::optional<int64_t> of;  // frames to record
+  double seconds = 0.0;       // from the start of the first frame to the end of the last
   Ending ending = Ending::kComplete;
 };
 
@@ -75,7 +75,7 @@ std::optional<int64_t> FramesWanted(const depth::FrameSource& source,
   return std::min(asked, known.value_or(asked));
 }
 
-// Takes frames until the source ends, the time is up, Ctrl-C comes or a device is given up.
+// Records frames until the source ends, the time is over, Ctrl-C, or a device does not come back.
 template <typename Recorder>
 void RecordFrames(depth::FrameSource& source, const RecordOptions& options, Recorder& recorder,
                   Recorded& recorded) {
@@ -107,7 +107,7 @@ void RecordFrames(depth::FrameSource& source, const RecordOptions& options, Reco
   if (has_end) recorded.ending = Ending::kInterrupted;
 }
 
-// A device that goes for good ends a recording; only one that was to be longer has failed then.
+// A disconnected device ends a recording; that is a failure only if it was to be longer.
 int Report(const RecordOptions& options, const Recorded& recorded) {
   const std::string summary = fmt::format("{}: {} frames, {:.1f} s, {} dropped", options.out,
                                           recorded.frames, recorded.seconds, recorded.dropped);
@@ -128,7 +128,7 @@ int Report(const RecordOptions& options, const Recorded& recorded) {
   return 0;
 }
 
-// What a source gave until a frame that cannot be read or recorded is kept.
+// The frames before one that cannot be read or recorded are kept.
 template <typename Recorder>
 int RecordTo(Recorder& recorder, depth::FrameSource& source, const RecordOptions& options) {
   Recorded recorded;
@@ -147,7 +147,7 @@ int RecordTo(Recorder& recorder, depth::FrameSource& source, const RecordOptions
   return Report(options, recorded);
 }
 
-// On a full disk what was recorded until then is kept, as far as it and the recording's end fit.
+// On a full disk the frames recorded so far are kept, as far as they and the recording's end fit.
 template <typename Recorder>
 int RecordWhatFits(Recorder recorder, depth::FrameSource& source, const RecordOptions& options) {
   try {

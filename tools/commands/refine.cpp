@@ -70,7 +70,7 @@ void AddLearningOptions(CLI::App& app, tools::RefinementStageOptions& options) {
 }
 
 void CheckArguments(const CLI::App& app, const RefineArguments& a) {
-  // .ossalook: its old name.
+  // .ossalook: the former extension.
   if (!a.out.ends_with(".ossalook")) CheckNotOtherKind("--out", a.out, ".ossarefine");
   if (a.bones && a.after.empty())
     throw UsageError("--bones: expected --after FILE.ossarefine, too");
@@ -84,7 +84,7 @@ void CheckArguments(const CLI::App& app, const RefineArguments& a) {
   AtomicFile::CheckWritable(a.out);
 }
 
-/// Throws InputError where no more can be learned after `known`.
+/// Throws InputError if no stage can be added after `known`.
 void CheckStages(const RefineArguments& a, const recon::RefinementCascade& known) {
   if (a.bones && !known.bone_conditioned.empty()) {
     throw InputError(fmt::format("{}: expected no bone-conditioned stage, found {}", a.after,
@@ -97,7 +97,7 @@ void CheckStages(const RefineArguments& a, const recon::RefinementCascade& known
   }
 }
 
-/// The stages before, of people seen as in the data sets.
+/// The stages before, for people with the view of the data sets.
 recon::RefinementCascade LoadKnown(const RefineArguments& a) {
   recon::RefinementCascade known;
   if (!a.after.empty()) known = recon::RefinementCascade::Load(a.after);
@@ -118,8 +118,8 @@ std::string ModelPath(const RefineArguments& a) {
   return tracker::ShippedFile(from_above ? "body_ceiling.ossa" : "body.ossa").string();
 }
 
-/// Whose joints the cascade will refine from now on. Stages that were learned at those of another
-/// forest would be run at joints that lie elsewhere, in silence.
+/// Sets the forest whose joints the cascade refines. Stages trained on those of another forest
+/// would give wrong joints without an error.
 uint64_t TellForest(const RefineArguments& a) {
   const uint64_t forest = ReadContainerChecksum(a.options.model_name);
   if (a.after.empty()) return forest;

@@ -33,7 +33,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> mocap;
-  recon::MocapOptions motion;  // how these are read
+  recon::MocapOptions motion;  // how motion files are read
   std::string out, size = "640x480", bodies = "random", noise = "kinect-v1", view = "front";
   std::string occluders = "none", split = "train", background, format = "png", camera = "kinect-v1";
   std::string poses = "spread", clothes = "fitting", mapping;
@@ -168,7 +168,7 @@ void ParseSize(const std::string& text, int* width, int* height) {
   }
 }
 
-// The image before it is shrunk is held whole.
+// The image before shrinking is kept in memory.
 void CheckSensorSize(const tools::FrameOptions& options) {
   const double larger_px = options.shrink * std::max(options.width, options.height);
   if (larger_px <= depth::kLargestImageSide) return;
@@ -177,7 +177,7 @@ void CheckSensorSize(const tools::FrameOptions& options) {
                   options.shrink, depth::kLargestImageSide, larger_px));
 }
 
-// `any`: all that are sensors.
+// `any`: all sensors.
 std::vector<depth::SensorKind> ParseSensors(const std::string& noise) {
   if (noise != "any") return {*depth::SensorFromName(noise)};
   std::vector<depth::SensorKind> sensors;
@@ -248,7 +248,7 @@ tools::FrameOptions MakeOptions(const Arguments& a) {
   return options;
 }
 
-// What made the data set, whatever threads and folders it was made with.
+// What made the data set, independent of threads and folders.
 std::string FormatCommand(const Arguments& a) {
   std::string command = "ossa render";
   for (const auto& source : a.mocap) command += " --mocap " + ShellWord(source);
@@ -302,8 +302,8 @@ void RenderSet(const tools::FrameStudio& studio, const Arguments& a,
 
 std::string CameraName(int camera) { return fmt::format("camera_{}", camera); }
 
-// A folder of several cameras holds theirs and nothing else: no data set of its own. What a run
-// that was killed left of the extrinsics goes; their data sets see to their own.
+// A folder of several cameras contains only their data sets, and is none itself. Removes the
+// extrinsics of a killed run; the data sets handle their own leftovers.
 void CheckFolderOfCameras(const Arguments& a) {
   RemoveLeftoversOf(std::filesystem::path(a.out) / "extrinsics.json");
   for (const auto& entry : std::filesystem::directory_iterator(a.out)) {
@@ -315,7 +315,7 @@ void CheckFolderOfCameras(const Arguments& a) {
   }
 }
 
-// One data set after the other; extrinsics.json says that all are there.
+// Renders one data set after the other; extrinsics.json is written last.
 void RenderAround(tools::FrameStudio& studio, const Arguments& a, tools::Ranks& ranks) {
   const std::filesystem::path out(a.out);
   if (ranks.rank() == 0) CheckFolderOfCameras(a);
@@ -353,7 +353,7 @@ int Render(int argc, char** argv) {
       a.sequence ? tools::SequencePoses(clips, a.frames, a.seed) : tools::MakePoseBank(clips, bank);
   if (poses.empty()) throw InputError(a.mocap.front() + ": expected motion, found no frames");
   tools::FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()), std::move(poses), options);
-  // Ranks work together; who holds the folder for them is the first.
+  // MPI ranks share the work; only the first locks the folder.
   std::optional<FolderLock> lock;
   if (ranks.rank() == 0) lock.emplace(a.out);
   if (a.cameras > 1) {

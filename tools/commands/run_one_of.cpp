@@ -27,7 +27,7 @@ std::string HelpText(std::span<const Command> commands) {
   return text + "\n'ossa COMMAND --help' shows a command's options and examples.\n";
 }
 
-// What a command was called in versions before.
+// Former names of commands.
 std::string_view NameToday(std::string_view name) { return name == "look" ? "refine" : name; }
 
 int Complain(const std::string& reason, int status) {
@@ -64,7 +64,7 @@ int HelpOf(std::span<const Command> commands, char* name) {
   return RunNamed(commands, std::span(arguments).first(2));
 }
 
-// For programs: `ossa NAME --describe` says the rest.
+// For programs: `ossa NAME --describe` gives the rest.
 int ListCommands(std::span<const Command> commands) {
   for (const Command& command : commands) {
     fmt::print("{}\t{}\n", command.name, command.summary);

@@ -5,7 +5,7 @@
 
 namespace ossa::commands {
 
-/// The text as a shell takes it for one word: as it is, or in quotes.
+/// The text as one word of a shell: unchanged, or quoted.
 inline std::string ShellWord(const std::string& text) {
   const std::string_view plain = "/._-+,:=@%";
   const auto is_plain = [plain](char c) {

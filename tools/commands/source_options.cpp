@@ -17,7 +17,7 @@
 namespace ossa::commands {
 namespace {
 
-constexpr double kLongest_s = 1e6;  // eleven days; a bound
+constexpr double kLongest_s = 1e6;  // eleven days; an upper bound
 
 std::function<bool()> KeepWaitingFor(const std::string& source, bool quiet) {
   return [source, said = quiet]() mutable {
@@ -27,7 +27,7 @@ std::function<bool()> KeepWaitingFor(const std::string& source, bool quiet) {
   };
 }
 
-// What a source has to say; of two that are opened in one run, once.
+// Prints a source's notes; those of a source that is opened twice in one run once.
 void SayNote(depth::NoteKind kind, const std::string& text, bool quiet,
              std::set<std::string>& said) {
   if (quiet && kind == depth::NoteKind::kInfo) return;
@@ -111,7 +111,7 @@ void FindCamera(SourceArguments& arguments, const std::function<tracker::Tracker
     if (!finding) return;
     arguments.camera = tracker::CameraText(finding->found);
     if (!quiet) Say(OnOneLine(arguments.name) + ": " + Describe(*finding) + "\n");
-  } catch (const InputError&) {  // told of when its turn comes
+  } catch (const InputError&) {  // reported when it is opened
   }
 }
 
@@ -120,7 +120,7 @@ void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,
   if (arguments.rotate != "auto" || source.is_live()) return;
   try {
     tracker.FindUpright(*OpenSource(arguments, true), [] { return !Interrupted(); });
-  } catch (const InputError&) {  // told of when its turn comes
+  } catch (const InputError&) {  // reported when it is opened
   }
   if (tracker.quarter_turns() == 0 || quiet) return;
   Say(

@@ -15,41 +15,41 @@ class App;
 
 namespace ossa::commands {
 
-/// A SOURCE and how it is read, the same for every command that has one.
+/// A SOURCE and how it is read, the same for all commands.
 struct SourceArguments {
   std::string name, camera, depth_format = "plain";
-  double depth_scale = 0.0;  // units to the metre; 0: not said
-  double fps = 0.0;          // 0: not said
+  double depth_scale = 0.0;  // units per metre; 0: not given
+  double fps = 0.0;          // 0: not given
   bool mirrored = false;     // images as a mirror shows them
   std::string rotate = "auto";
   std::shared_ptr<std::set<std::string>> said = std::make_shared<std::set<std::string>>();
-  // Whose camera it was taken for by its images' size alone: a preset's name; "": it is stated.
+  // The preset chosen by the images' size; "": the camera is stated.
   std::shared_ptr<std::string> guessed = std::make_shared<std::string>();
   double wait_s = 0.0;
   double patience_s = 5.0;
 };
 
-/// Whether a SOURCE of that name is a device, or plays as one, and no recording.
+/// Whether a SOURCE of this name is a device, or plays like one, and not a recording.
 bool IsDevice(std::string_view source);
 
-/// SOURCE, --camera, --depth-scale, --depth-format, --fps, --mirrored and --rotate.
+/// Adds SOURCE, --camera, --depth-scale, --depth-format, --fps, --mirrored and --rotate.
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);
 tracker::Turn ChooseTurn(const SourceArguments& arguments);
-/// Before a folder of images is tracked that does not say its camera: takes one of a narrower view
-/// (depth::NarrowerCameras) where people are seen far more surely by it, and says so unless quiet.
-/// `options` of the tracker are asked for where there is a choice.
+/// For a folder of images without a stated camera: selects a camera with a narrower view
+/// (depth::NarrowerCameras) if people have a much higher confidence with it, and prints that unless
+/// quiet. `options` is called only where there is an alternative.
 void FindCamera(SourceArguments& arguments, const std::function<tracker::TrackerOptions()>& options,
                 bool quiet);
-/// With --rotate auto, before a recording (`source`, which it does not read) is tracked: finds
-/// which way up its camera is, and says so unless it stands.
+/// With --rotate auto, for a recording (`source`, which is not consumed): finds the image rotation
+/// before tracking, and prints it unless upright.
 void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,
                  const SourceArguments& arguments, bool quiet);
-/// --wait and --patience, for what a device may do.
+/// Adds --wait and --patience, for devices.
 void AddDeviceOptions(CLI::App& app, SourceArguments& arguments);
 
-/// Waits for a device as --wait asks, says so once unless quiet, and gives up at Ctrl-C. What was
-/// assumed or passed over is said unless quiet, what was lost in any case. Throws UsageError for a
-/// --camera that is none.
+/// Opens the source; waits for a device as --wait requests, printing that once unless quiet, until
+/// Ctrl-C. Assumptions and skipped frames are printed unless quiet, losses always. Throws
+/// UsageError for an invalid --camera.
 std::unique_ptr<depth::FrameSource> OpenSource(const SourceArguments& arguments, bool quiet);
 
 std::chrono::milliseconds Milliseconds(double seconds);

@@ -44,11 +44,11 @@ enum class Ending { kComplete, kUnplugged, kSilent, kInterrupted };
 struct Run {
   tracker::RunStats stats;
   int64_t dropped = 0;
-  std::optional<int64_t> of;  // frames that are to be tracked
-  int64_t lost_gaps = 0;      // times the device went away and came back
-  bool somebody = false;      // was followed in a frame
+  std::optional<int64_t> of;  // frames to track
+  int64_t lost_gaps = 0;      // number of reconnections of the device
+  bool somebody = false;      // a person was tracked in some frame
   Ending ending = Ending::kComplete;
-  std::string failure;  // of the source; what was tracked before it stays
+  std::string failure;  // of the source; frames before it are kept
   std::optional<DiskFull> full;
 };
 
@@ -58,7 +58,7 @@ std::optional<int64_t> FramesWanted(const depth::FrameSource& source, const Trac
   return std::min(options.frames, known.value_or(options.frames));
 }
 
-/// Where what is tracked goes. Images wait for their bodies, which are late by the lag.
+/// The outputs of tracking. Images wait for their bodies, which the lag delays.
 struct Destinations {
   const TrackOptions& options;
   tracker::Tracker& tracker;
@@ -73,7 +73,7 @@ struct Destinations {
   void Deliver(const tracker::BodyFrame& bodies, Run& run) {
     run.stats.Add(bodies.ms);
     run.somebody = run.somebody || !bodies.bodies.empty();
-    sender.Send(bodies);  // first: it is waited for
+    sender.Send(bodies);  // first, because receivers are live
     output.Write(bodies);
     person.Take(bodies);
     trace.Write(bodies);
@@ -136,7 +136,7 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
   if (has_end) run.ending = Ending::kInterrupted;
 }
 
-/// Frames that are held when the source ends, or fails, are delivered all the same.
+/// Delivers frames held by the lag also after the source failed.
 void TrackWhatComes(depth::FrameSource& source, tracker::Tracker& tracker,
                     const TrackOptions& options, Destinations& to, Run& run) {
   try {
@@ -159,7 +159,7 @@ void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const Track
   }
 }
 
-// How long people's bones are by the whole recording, which is tracked for nothing else.
+// Bone lengths over the whole recording, for which it is tracked once more.
 std::map<int, recon::BoneLengths> MeasureBones(const TrackOptions& options) {
   const auto source = OpenSource(options.source, options.quiet);
   if (source->is_live()) {
@@ -213,7 +213,7 @@ void Report(const TrackOptions& options, const Run& run) {
   }
 }
 
-/// Things wait for a floor: where none came, say so.
+/// Objects of a scene need a floor: prints a line if none was detected.
 void SayMissingFloor(tracker::Tracker& tracker, const TrackOptions& options) {
   if (tracker.scene() == nullptr || tracker.scene()->has_floor()) return;
   Say(
@@ -222,7 +222,8 @@ void SayMissingFloor(tracker::Tracker& tracker, const TrackOptions& options) {
                   options.mechanics.scene));
 }
 
-/// An empty recording, or one that was read wrongly: nothing in the images tells which.
+/// Without people the recording is empty or was read with wrong options: the images do not tell
+/// which.
 void SayNobody(const TrackOptions& options, const depth::Camera& camera, const Run& run) {
   if (options.quiet || run.somebody || run.stats.frames() == 0) return;
   Say(
@@ -262,13 +263,13 @@ std::unique_ptr<viewer::Viewer> OpenViewer(const TrackOptions& options) {
   return viewer;
 }
 
-/// Throws InputError where nothing was tracked.
+/// Throws InputError if nothing was tracked.
 void CheckWorthKeeping(const TrackOptions& options, const Run& run) {
   if (!run.failure.empty() && run.stats.frames() == 0) throw InputError(run.failure);
   CheckFrames(options, run);
 }
 
-/// Everything was kept, but the recording was not tracked to its end: throws InputError.
+/// Throws InputError if all is written but the recording was not tracked to its end.
 void CheckComplete(const TrackOptions& options, const Run& run) {
   if (!run.failure.empty()) {
     const std::string frames = FramesText(run.stats.frames(), run.of);
@@ -280,14 +281,14 @@ void CheckComplete(const TrackOptions& options, const Run& run) {
   if (run.ending == Ending::kInterrupted) throw InterruptedEarly(options, run);
 }
 
-/// Each output gets what it can, whatever befell another.
+/// Finishes all outputs, even if some fail.
 void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
   DoEach("track", {[&] { to.output.Finish(); }, [&] { to.pictures.Finish(); },
                    [&] { Report(to.options, run); }, [&] { SayNobody(to.options, camera, run); },
                    [&] { to.person.SayUnlikelyStature(to.options, camera); },
                    [&] { SayMissingFloor(to.tracker, to.options); }, [&] { to.trace.Finish(); },
                    [&] { to.person.Finish(to.options); }, [&] { CheckComplete(to.options, run); }});
-  if (run.full) throw InputError(*run.full);  // of no output, then: of what the viewer keeps
+  if (run.full) throw InputError(*run.full);  // of the viewer, since no output failed
 }
 
 }  // namespace
@@ -300,7 +301,7 @@ int Track(int argc, char** argv) {
   FindCamera(
       options.source, [&] { return options.tracker; }, options.quiet);
   KnowPeople(options);
-  tracker::Tracker tracker(options.tracker);  // first: a device's frames do not wait meanwhile
+  tracker::Tracker tracker(options.tracker);  // first: a device must not wait for it
   const auto source = OpenSource(options.source, options.quiet);
   FindUpright(tracker, *source, options.source, options.quiet);
   SkeletonOutput output(options);

@@ -17,11 +17,11 @@
 
 namespace ossa::commands {
 
-/// What `ossa track` was asked for.
+/// The parsed arguments of `ossa track`.
 struct TrackOptions {
   SourceArguments source;
-  std::vector<std::string> more_sources;  // of the same people at the same time
-  FuseArguments fuse;                     // of these
+  std::vector<std::string> more_sources;  // other cameras, for the same people at the same time
+  FuseArguments fuse;                     // for these
   std::string out, json_stats, picture, pictures, trace;
   FitArguments fit;
   std::string save_person;
@@ -31,7 +31,7 @@ struct TrackOptions {
   WriteOptions write;
   tracker::ModelFiles files;
   tracker::TrackerOptions tracker;
-  std::optional<int> lag;  // as asked for
+  std::optional<int> lag;  // value of --lag
   int64_t frames = 0;
   std::vector<std::string> send;
   std::vector<stream::Target> targets;  // of `send`
@@ -39,7 +39,7 @@ struct TrackOptions {
   bool view = false;
   bool quiet = false;
 
-  /// The names of all sources, the first before.
+  /// The names of all sources, the main one first.
   std::vector<std::string> Sources() const {
     std::vector<std::string> names{source.name};
     names.insert(names.end(), more_sources.begin(), more_sources.end());
@@ -47,7 +47,7 @@ struct TrackOptions {
   }
 };
 
-/// Throws UsageError for what cannot be.
+/// Throws UsageError for invalid arguments.
 TrackOptions ParseTrackOptions(int argc, char** argv);
 
 }  // namespace ossa::commands

@@ -22,17 +22,18 @@ size_t TrackedJoints(const tracker::BodyFrame& bodies) {
   return count;
 }
 
-// Of nearly all who are grown up; a child's is told of, too, and may be right.
+// Bounds of nearly all adults; for a child the message appears, too, and may be right.
 constexpr double kLeastStature_m = 1.35, kMostStature_m = 2.15;  // by hand
 
 bool IsUnlikely(const recon::Stature& stature) {
-  constexpr double kSigmas = 2.0;  // standard deviations, by hand: hardly by chance
+  constexpr double kSigmas = 2.0;  // standard deviations, by hand: unlikely by chance
   const double sure_m = kSigmas * stature.sigma_m;
   return stature.stature_m + sure_m < kLeastStature_m ||
          stature.stature_m - sure_m > kMostStature_m;
 }
 
-/// Presets by whose view somebody so tall by `camera` is as tall as most; "" where there is none.
+/// Presets with which a person of this stature by `camera` would have a common one; "" if there is
+/// none.
 std::string ListLikelierCameras(double stature_m, const depth::Camera& camera) {
   constexpr double kShort_m = 1.5, kTall_m = 2.0;  // by hand
   std::string list;

@@ -12,10 +12,10 @@
 #include "tools/commands/track_options.h"
 #include "tools/tracker/tracker.h"
 
-// The files of `ossa track`; each is there only when it is complete.
+// The output files of `ossa track`; each is complete or absent.
 namespace ossa::commands {
 
-/// Skeletons on their way to the file of --out; without one nothing is written.
+/// Writer of the skeletons for --out; without one nothing is written.
 class SkeletonOutput {
  public:
   explicit SkeletonOutput(const TrackOptions& options);
@@ -31,14 +31,14 @@ class SkeletonOutput {
   std::optional<DiskFull> full_;
 };
 
-/// The pictures of --picture and --pictures. The one picture shows the frame in which most is
-/// tracked (the latest of equals).
+/// The pictures of --picture and --pictures. The single picture shows the frame with the most
+/// tracked joints (the latest of ties).
 class Pictures {
  public:
   explicit Pictures(const TrackOptions& options);
   /// Throws DiskFull.
   void Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies);
-  /// Throws InputError, also of the picture that did not fit before.
+  /// Throws InputError, also for a picture that did not fit earlier.
   void Finish() const;
 
  private:
@@ -52,15 +52,15 @@ class Pictures {
   tracker::BodyFrame best_;
 };
 
-/// What was fitted of whom: for --save-person, and to hold a guessed camera against.
+/// The fitted people: for --save-person, and for checking an assumed camera.
 class PersonKeeper {
  public:
   explicit PersonKeeper(const TrackOptions& options);
   void Take(const tracker::BodyFrame& bodies);
-  /// Throws InputError where nobody was fitted.
+  /// Throws InputError if nobody was fitted.
   void Finish(const TrackOptions& options) const;
-  /// Of a camera that was guessed: unless quiet says where whoever was fitted most is as tall as
-  /// hardly anybody grown, and by which other cameras' view they would not be.
+  /// For an assumed camera: prints, unless quiet, if the most fitted person has an implausible
+  /// adult stature, and the presets with which it would be plausible.
   void SayUnlikelyStature(const TrackOptions& options, const depth::Camera& camera) const;
 
  private:
@@ -68,7 +68,7 @@ class PersonKeeper {
     recon::PersonShape shape;
     int64_t fits = 0;
   };
-  /// Who was fitted most, by id; null: nobody.
+  /// The person with the most fits, by id; null: nobody.
   const std::pair<const int, Kept>* FindMostFitted() const;
 
   std::string path_;

@@ -25,7 +25,7 @@
 namespace ossa::commands {
 namespace {
 
-/// One recording while it is tracked.
+/// One recording during tracking.
 struct Camera {
   SourceArguments arguments;
   std::unique_ptr<depth::FrameSource> source;
@@ -41,7 +41,7 @@ std::unique_ptr<Camera> OpenCamera(const TrackOptions& options, const std::strin
   auto camera = std::make_unique<Camera>();
   camera->arguments = options.source;
   camera->arguments.name = name;
-  camera->arguments.said = std::make_shared<std::set<std::string>>();  // each thread its own
+  camera->arguments.said = std::make_shared<std::set<std::string>>();  // one per thread
   camera->skeletons.source = name;
   FindCamera(
       camera->arguments, [&] { return options.tracker; }, options.quiet);
@@ -56,7 +56,7 @@ std::optional<int64_t> FramesOf(const Camera& camera, const TrackOptions& option
   return options.frames == 0 ? known : std::min(options.frames, known.value_or(options.frames));
 }
 
-// Runs in a thread of its own. A recording that is damaged somewhere keeps what came before.
+// Runs in its own thread. Of a damaged recording the frames before the damage are kept.
 void TrackCamera(Camera& camera, const TrackOptions& options) {
   const PostureRecorder recorder(options);
   try {
@@ -114,7 +114,7 @@ void CheckFramesCame(const Cameras& cameras, std::span<const recon::SkeletonSequ
   }
 }
 
-// "" when it was written.
+// "" on success.
 std::string WriteOrSayWhyNot(const std::filesystem::path& file,
                              const recon::SkeletonSequence& recording) {
   try {
@@ -126,9 +126,8 @@ std::string WriteOrSayWhyNot(const std::filesystem::path& file,
   }
 }
 
-// Writes each camera's own skeletons into a folder beside the output, under the camera's name, by
-// which `ossa fuse --extrinsics` knows it: hours of tracking are not lost to what follows it. Says
-// where they are.
+// Writes each camera's own skeletons into a folder beside the output, under the camera's name in
+// `ossa fuse --extrinsics`, so that long tracking is not lost if fusion fails. Prints the folder.
 std::string KeepUnfused(const TrackOptions& options,
                         std::span<const recon::SkeletonSequence> recordings) {
   std::filesystem::path folder = options.out.empty() ? options.fuse.save_extrinsics : options.out;
@@ -146,7 +145,7 @@ std::string KeepUnfused(const TrackOptions& options,
   return "what each camera tracked is in " + kept + ", which `ossa fuse` reads" + failures;
 }
 
-// Why there are not all frames, to be said before how many there are; "" where there are all.
+// Why frames are missing, to be printed before their number; "" if all are there.
 std::string WhyCutShort(const Cameras& cameras, const TrackOptions& options, int64_t frames) {
   for (const auto& camera : cameras) {
     if (!camera->failure.empty()) return camera->failure + "; ";
@@ -156,7 +155,7 @@ std::string WhyCutShort(const Cameras& cameras, const TrackOptions& options, int
   return first.arguments.name + ": interrupted: ";
 }
 
-// Where so little came that nobody can say where the cameras are, the reason is why so little came.
+// If too few frames came to find the extrinsics, that is reported instead.
 std::string WhyNotFused(const TrackOptions& options, const Cameras& cameras, int64_t frames,
                         const std::string& failure) {
   const std::string why = frames == 0 ? "" : WhyCutShort(cameras, options, frames);
@@ -177,7 +176,7 @@ FusedRecordings FuseOrKeep(const TrackOptions& options, const Cameras& cameras,
   }
 }
 
-// After what there is was written.
+// After the available results were written.
 void SayWhatIsMissing(const Cameras& cameras, const TrackOptions& options, int64_t frames) {
   const std::string why = WhyCutShort(cameras, options, frames);
   if (why.empty()) return;

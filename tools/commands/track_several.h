@@ -3,11 +3,11 @@
 
 namespace ossa::commands {
 
-/// `ossa track` of several recordings of the same people at the same time: each by a tracker and a
-/// thread of its own, then fused at the first one's times. options.tracker.models are loaded. What
-/// was tracked until Ctrl-C, or until a recording failed, is fused and written, then said; where it
-/// cannot be fused, each camera's own skeletons are written: of --out both.jsonl into
-/// both.cameras/NAME.jsonl. Throws UsageError for devices, InputError.
+/// `ossa track` with several recordings of the same people at the same time: each has a tracker and
+/// a thread; the results are fused at the times of the first. options.tracker.models must be
+/// loaded. On Ctrl-C or a failed recording the frames so far are fused and written, and the cause
+/// is reported; if they cannot be fused, each camera's own skeletons are written: for --out
+/// both.jsonl into both.cameras/NAME.jsonl. Throws UsageError for devices, InputError.
 int TrackSeveral(const TrackOptions& options);
 
 }  // namespace ossa::commands

@@ -38,7 +38,7 @@ void ShowProgress(Progress* bar, const forest::TrainProgress& p) {
                   p.seconds_left));
 }
 
-// Of the levels this run grew; a time, so that it has no place in a card.
+// The time of the levels grown in this run, which is not stored in a card.
 void SayRate(const forest::TrainSummary& summary) {
   if (summary.split_seconds <= 0) return;
   const auto evaluations = static_cast<double>(summary.evaluations);
@@ -50,10 +50,9 @@ void SayRate(const forest::TrainSummary& summary) {
 
 constexpr size_t kArrangedImages = 40000;  // 60 numbers in 8 contexts ask for no more
 
-constexpr int kForLabels = 10;  // of each 100 fresh frames; the refinement has the others
+constexpr int kForLabels = 10;  // of each 100 new frames; the refinement uses the others
 
-// Images of another source, until somebody has had enough: what is learned of joints reads most of
-// its time.
+// Images of another source, until Ctrl-C: reading dominates the time of learning joints.
 class InterruptedSource final : public forest::TrainingSource {
  public:
   explicit InterruptedSource(const forest::TrainingSource& source) : source_(source) {}
@@ -68,7 +67,7 @@ class InterruptedSource final : public forest::TrainingSource {
   const forest::TrainingSource& source_;
 };
 
-// The second stage; how far it is to be trusted; and what its joints say of the labels.
+// The second stage, its confidence calibration, and relabelling by its joints.
 forest::ForestModel Refined(const TrainArguments& a, const forest::ForestModel& model,
                             const forest::TrainingSource& held_out) {
   const tools::PersonSource fresh(a.refinement, {kForLabels, 100}, tools::Extent::kWholeImage);
@@ -101,7 +100,7 @@ forest::ForestModel LearnJoints(const TrainArguments& a, const forest::ForestMod
   return a.refinement.empty() ? proposing : Refined(a, proposing, validation);
 }
 
-constexpr int kHeldOut = 4;  // of each 100 frames, where there is no --validation; by hand
+constexpr int kHeldOut = 4;  // of each 100 frames, without --validation; by hand
 
 TrainData OpenData(const TrainArguments& a) {
   const bool apart = !a.validation.empty();
@@ -110,7 +109,7 @@ TrainData OpenData(const TrainArguments& a) {
       {apart ? a.validation : a.datasets, {0, apart ? 100 : kHeldOut}, tools::Extent::kWholeImage}};
 }
 
-// Before the hours of work that need them.
+// Checked before the training that needs them.
 void CheckSizes(const TrainArguments& a, const TrainData& data) {
   if (a.validation.empty() && data.training.size() == 0) {
     throw InputError(fmt::format(
@@ -132,7 +131,7 @@ void CheckSizes(const TrainArguments& a, const TrainData& data) {
       a.refinement.front().string(), kFewest, kForLabels, fresh.size()));
 }
 
-// On images that the trees were grown on they are surer than they will ever be again.
+// The trees are overconfident on the images that they were grown on.
 std::vector<std::string> FindDataUsedTwice(const TrainArguments& a) {
   std::vector<std::string> warnings;
   const auto look = [&](const char* option, const std::vector<fs::path>& others) {
@@ -157,14 +156,15 @@ forest::ForestModel WithinLimit(const TrainArguments& a, const forest::ForestMod
   return a.max_bytes ? forest::FitInto(model, *a.max_bytes) : model;
 }
 
-// What was learned after the trees takes room, too.
+// The parts learned after the trees take space, too.
 void Write(const TrainArguments& a, const forest::ForestModel& model, std::string card) {
   forest::ForestData data = model.data();
   data.manifest = std::move(card);
   forest::WriteForestModel(a.out, WithinLimit(a, forest::ForestModel(std::move(data))));
 }
 
-// With validation frames the trees also get proposals, to be evaluated like a model of ours.
+// With validation frames the trees also get proposals, so that they can be evaluated like a
+// complete model.
 int ImportPcl(const TrainArguments& a) {
   forest::ForestModel model = forest::ImportPclTrees(a.import_pcl);
   if (!a.validation.empty()) {
@@ -178,7 +178,7 @@ int ImportPcl(const TrainArguments& a) {
   return 0;
 }
 
-// Of other targets and contexts our truth says nothing, nor of other classes' labels.
+// The truth has no other targets and contexts, nor other classes' labels.
 void CheckTellsPeople(const forest::ForestModel& model, const TrainArguments& a) {
   const forest::TrainingVocabulary ours = tools::BodyVocabulary();
   const std::string name = a.trees_of.string();
@@ -207,7 +207,7 @@ int LearnAgain(const TrainArguments& a) {
   return 0;
 }
 
-// A checkpoint is hours of work: nobody is to lose it, or to wait for it, without a word.
+// A checkpoint is hours of work: it is neither deleted nor waited for without a message.
 void SayOfCheckpoint(const TrainArguments& a) {
   const bool is_there = fs::exists(a.checkpoint());
   if (a.quiet || is_there == a.options.resume) return;
@@ -217,13 +217,13 @@ void SayOfCheckpoint(const TrainArguments& a) {
   Say(fmt::format("train: {}: {}\n", a.checkpoint().string(), what));
 }
 
-// Whoever runs a script of trainings again has those that ended behind them.
+// A rerun script of trainings skips the finished ones.
 bool IsThereAlready(const TrainArguments& a, const TrainData& data) {
   if (!a.options.resume || fs::exists(a.checkpoint()) || !fs::exists(a.out)) return false;
   try {
     return WasMadeBy(forest::ReadForestModel(a.out).manifest(), a, data);
   } catch (const InputError&) {
-    return false;  // no model, or not of this version
+    return false;  // no model, or of another version
   }
 }
 
@@ -243,7 +243,7 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   o.checkpoint = a->checkpoint();
   if (reducer.rank() == 0) {
     AtomicFile::CheckWritable(o.checkpoint);
-    RemoveLeftoversOf(o.checkpoint);  // of runs that were killed while they wrote it or the model
+    RemoveLeftoversOf(o.checkpoint);  // of runs that were killed while writing it or the model
     RemoveLeftoversOf(a->out);
     SayOfCheckpoint(*a);
   }

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// The last name in a path, also of a folder that a shell's completion ended with a slash.
+// The last name of a path, also with a trailing slash.
 std::string WithoutFolders(const fs::path& path) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
@@ -31,7 +31,7 @@ std::string LineWithoutFolders(const std::string& line) {
   return out;
 }
 
-// FNV-1a, 64 bits: names the data, guards nothing.
+// FNV-1a, 64 bits: identifies the data, without cryptographic strength.
 uint64_t Fnv1a(const std::string& text) {
   uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : text) hash = (hash ^ static_cast<uint8_t>(c)) * 0x100000001b3ULL;
@@ -137,8 +137,8 @@ std::string RenewCard(const forest::ForestModel& learned, const TrainArguments& 
   AddTerms(refinement, &terms);
   card["terms"] = terms;
   card["proposals_command"] = a.command;
-  card.erase("accuracy");  // of the proposals as they were
-  // Without --refinement labels are still looked at again as the data before taught it.
+  card.erase("accuracy");  // of the replaced proposals
+  // Without --refinement relabelling stays as learned from the earlier data.
   const bool is_still_relabelled = refinement.empty() && !learned.data().relabelling.bias.empty();
   if (!is_still_relabelled) card.erase("refinement_data");
   if (!refinement.empty()) card["refinement_data"] = DescribeData(refinement);

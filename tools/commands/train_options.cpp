@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostMegabytes = 1e6;  // MB, by hand: no forest has as many
+constexpr double kMostMegabytes = 1e6;  // MB, by hand: larger than any forest
 
-// As they are written, before they are checked.
+// The arguments as written, before checks.
 struct TrainWords {
   std::string memory = "8G";
   double max_megabytes = 0;
@@ -146,8 +146,8 @@ std::vector<std::string> ListInputs(const TrainArguments& a) {
   return inputs;
 }
 
-// What a run has no use for is a mistake: it would leave the model other than was asked for. Of the
-// command line alone: defaults of a user's own are for all runs.
+// Options without effect are errors, because the model would not be as requested. Only those of the
+// command line: a user's defaults apply to all runs.
 void CheckGoTogether(const CLI::App& app) {
   constexpr std::array kOfTrees = {
       "--trees",         "--depth",         "--candidates", "--thresholds",  "--pixels",

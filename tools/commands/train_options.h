@@ -10,7 +10,7 @@
 
 namespace ossa::commands {
 
-/// What `ossa train` was asked for.
+/// The parsed arguments of `ossa train`.
 struct TrainArguments {
   std::vector<std::filesystem::path> datasets;
   std::vector<std::filesystem::path> validation;
@@ -28,7 +28,7 @@ struct TrainArguments {
   std::filesystem::path checkpoint() const { return out.string() + ".checkpoint"; }
 };
 
-/// Throws UsageError for what cannot be, InputError where the model cannot be written.
+/// Throws UsageError for invalid arguments, InputError if the model cannot be written.
 TrainArguments ParseTrainOptions(int argc, char** argv);
 
 }  // namespace ossa::commands

@@ -10,26 +10,26 @@ class App;
 
 namespace ossa::commands {
 
-/// Where the page of a command is served, the same for `view` and `track --view`.
+/// The server of a command's page, the same for `view` and `track --view`.
 struct PageArguments {
   int port = 8080;     // by convention, an HTTP port that needs no rights
-  std::string listen;  // empty: this machine alone
+  std::string listen;  // empty: this machine only
   std::string token;   // empty: none on this machine, else a random one
 };
 
-/// --port, --listen and --token.
+/// Adds --port, --listen and --token.
 void AddPageOptions(CLI::App& app, PageArguments& arguments);
 
-/// What they mean for a viewer.
+/// Converts them to options of a viewer.
 viewer::ViewerOptions PageOptions(const PageArguments& arguments);
 
-/// The skin of bodies that a page shows and exports, as --surface and --mesh name it; null where
-/// one of them is "none", and of a surface of one's own without its mesh, which is said. Throws
+/// The skin of bodies that a page shows and exports, from --surface and --mesh; null if one of them
+/// is "none", and for a custom surface without its mesh, for which a line is printed. Throws
 /// InputError.
 std::shared_ptr<const recon::BodyMesh> LoadSkin(const std::string& surface,
                                                 const std::string& mesh);
 
-/// Where browsers find the page, on stderr.
+/// Prints the address of the page to stderr.
 void SayWhere(const viewer::Viewer& viewer);
 
 }  // namespace ossa::commands

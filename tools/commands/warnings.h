@@ -7,9 +7,8 @@
 
 namespace ossa::commands {
 
-/// Says on stderr what was odd in the files read and how it was taken, a line each: "COMMAND:
-/// warning: FILE: ...". Also when quiet: what is said is of the result, not of the progress. Of a
-/// folder full of oddities the first twenty, then how many more.
+/// Prints the readers' warnings to stderr, a line each: "COMMAND: warning: FILE: ...". Also when
+/// quiet, because they concern the result. After the first twenty only the number of the others.
 void SayWarnings(std::string_view command, const std::vector<recon::SkeletonClip>& clips);
 void SayWarnings(std::string_view command, const std::vector<recon::MotionClip>& clips);
 void SayWarnings(std::string_view command, const std::vector<std::string>& warnings);
