@@ -13,7 +13,7 @@ struct TrackList {
 };
 
 /// Candidates that are not accepted as people yet but may be lost tracks. They compete in the
-/// association, so that an accepted person does not take the track of somebody else.
+/// association, so that an accepted person does not take their track.
 std::vector<Region> FindRivals(const std::vector<Candidate>& candidates);
 
 /// Assigns the detected people of a frame their ids (same order), 1 to 255, and updates the tracks.

@@ -12,6 +12,12 @@ namespace ossa::people {
 
 using Eigen::Vector3f;
 
+std::vector<uint8_t> MaskPixels(const DepthFrame& frame, std::span<const int32_t> pixels) {
+  std::vector<uint8_t> mask(frame.pixel_count(), 0);
+  for (const int32_t pixel : pixels) mask[static_cast<size_t>(pixel)] = 1;
+  return mask;
+}
+
 Decision DescribeRegion(const Region& region, Rule rule) {
   Decision decision;
   decision.rule = rule;

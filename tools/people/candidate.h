@@ -34,6 +34,9 @@ inline bool IsForeground(const Candidate& candidate) {
   return candidate.foreground_share > kMajority;
 }
 
+/// A mask of the frame, row-major: 1 for these pixels (v * width + u).
+std::vector<uint8_t> MaskPixels(const DepthFrame& frame, std::span<const int32_t> pixels);
+
 /// The decision record of a region that was not classified.
 Decision DescribeRegion(const Region& region, Rule rule);
 

@@ -235,8 +235,8 @@ bool HasPerson(const std::vector<Detection>& detections, const InitiationOptions
   });
 }
 
-// A rejected candidate may be a person with the furniture they touch. Tried only if nobody else was
-// found: beside another person it would as often be an object they hold.
+// A rejected candidate may be a person with the furniture they touch. Tried only in frames without
+// people: beside a person it would as often be an object they hold.
 void RetryAroundHeads(const ClassificationInput& input, std::vector<Detection>& detections,
                       std::vector<Decision>& decided) {
   const double needed = input.options.initiation.person_by_pose_score;

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <vector>
 
 #include "recon/refine/person_crop.h"
+#include "tools/people/candidate.h"
 
 namespace ossa::people {
 namespace {
@@ -19,9 +19,7 @@ namespace {
 std::optional<recon::NetworkPose> ReadPose(const recon::PoseNetwork& network,
                                            const depth::DepthFrame& frame,
                                            std::span<const int32_t> pixels) {
-  std::vector<uint8_t> is_person(frame.pixel_count(), 0);
-  for (const int32_t pixel : pixels) is_person[static_cast<size_t>(pixel)] = 1;
-  const auto crop = recon::PersonCrop::Cut(frame, is_person);
+  const auto crop = recon::PersonCrop::Cut(frame, MaskPixels(frame, pixels));
   if (!crop) return std::nullopt;
   return network.Run(*crop);
 }

@@ -23,7 +23,7 @@ Entrance FindEntrance(const PointGrid& grid, const std::vector<int>& cells,
                       const ReidentifyOptions& options = {});
 
 /// Log-odds of a person at `place_m` (camera space, metres) being this lost track against being
-/// somebody else.
+/// another person.
 double ComputeLostTrackLogOdds(const PointGrid& grid, const Track& lost,
                                const Eigen::Vector3f& place_m, const FrameMeasures& measures,
                                Entrance entrance, double time_s, const ReidentifyOptions& options);

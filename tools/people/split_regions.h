@@ -18,7 +18,8 @@ struct Seed {
 };
 
 /// Splits a region into one segment per seed: each cell goes to the seed with the shortest path
-/// over the surface. Cells beyond reach go to none: bodies are bounded, a sofa goes on.
+/// over the surface. Cells beyond reach go to none, because a body is bounded and a sofa beside it
+/// is not part of it.
 std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
                                  const std::vector<Seed>& seeds, const SeedOptions& options = {});
 

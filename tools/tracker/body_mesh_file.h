@@ -8,19 +8,19 @@
 
 namespace ossa::tracker {
 
-/// The skin that people of a .glb wear: of files, or "" for what ossa ships. Throws InputError
-/// where a file is missing or damaged, or the mesh is another surface's.
+/// Loads the skin of people in a .glb from files, "" for the shipped ones. Throws InputError if a
+/// file is missing or damaged, or the mesh is for another surface.
 std::shared_ptr<const recon::BodyMesh> LoadBodyMesh(const std::string& surface_file = "",
                                                     const std::string& mesh_file = "");
 
-/// How skeletons are written, by names and files; "": what is usual of the format.
+/// Choices for writing skeletons; "": the default of the format.
 struct WriteChoice {
-  std::string names;          // of a .bvh or .glb: sdk, cmu, mixamo or vrm
-  std::string surface, mesh;  // of a .glb: the skin, as LoadBodyMesh has it; mesh "none": no skin
+  std::string names;          // bone names of a .bvh or .glb: sdk, cmu, mixamo or vrm
+  std::string surface, mesh;  // skin of a .glb, as in LoadBodyMesh; mesh "none": no skin
 };
 
-/// Reads what a file of that name wants. Throws InputError also for a choice that the format does
-/// not have, and for a surface of one's own without its skin.
+/// Loads the options for a file name. Throws InputError also for a choice that the format does not
+/// support, and for a custom surface without its skin.
 recon::SkeletonWriteOptions LoadWriteOptions(const std::filesystem::path& out,
                                              const WriteChoice& choice);
 

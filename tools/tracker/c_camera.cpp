@@ -1,4 +1,4 @@
-// Between pixels and camera space, behind ossa_c.h.
+// Projection between pixels and camera space, for ossa_c.h.
 #include <algorithm>
 #include <string>
 
@@ -10,6 +10,7 @@
 namespace {
 
 using ossa::tracker::CameraFrom;
+using ossa::tracker::CopyVector;
 using ossa::tracker::Guarded;
 using ossa::tracker::ReadStruct;
 using ossa::tracker::RequireNotNull;
@@ -18,10 +19,6 @@ void RequireBefore(float depth, const char* call, const char* what) {
   if (depth > 0.0F) return;  // false of NaN, too
   throw std::invalid_argument(std::string(call) + ": expected " + what + " above 0, found " +
                               std::to_string(depth));
-}
-
-void Copy(const Eigen::Vector3d& from, float* to) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
 }
 
 }  // namespace
@@ -72,8 +69,9 @@ ossa_status ossa_back_project(const ossa_depth_image* image, const float pixel_u
     const ossa::depth::Camera camera = CameraFrom(ReadStruct(*image));
     RequireBefore(depth_mm, "ossa_back_project", "a depth");
     const Eigen::Vector2d pixel = Eigen::Vector2f(pixel_uv).cast<double>();
-    Copy(ossa::depth::BackProject(camera, pixel.x(), pixel.y(), static_cast<double>(depth_mm)),
-         point_m);
+    CopyVector(
+        ossa::depth::BackProject(camera, pixel.x(), pixel.y(), static_cast<double>(depth_mm)),
+        point_m);
     return OSSA_OK;
   });
 }
@@ -88,7 +86,7 @@ ossa_status ossa_points(const ossa_depth_image* image, float* points_m) {
     const uint16_t* depth_mm = given.depth_mm;
     for (int v = 0; v < camera.height; ++v) {
       for (int u = 0; u < camera.width; ++u, ++depth_mm, points_m += 3) {
-        Copy(ossa::depth::BackProject(camera, u, v, *depth_mm), points_m);
+        CopyVector(ossa::depth::BackProject(camera, u, v, *depth_mm), points_m);
       }
     }
     return OSSA_OK;

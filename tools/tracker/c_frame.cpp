@@ -1,4 +1,4 @@
-// What was tracked, as ossa_c.h has it.
+// Conversion of results to the structs of ossa_c.h.
 #include <algorithm>
 
 #include "tools/tracker/c_interface_internal.h"
@@ -10,10 +10,6 @@ namespace {
 static_assert(OSSA_JOINT_COUNT == recon::kJointCount);
 static_assert(OSSA_FOOT_RIGHT == static_cast<int>(recon::Joint::kFootRight));
 
-void Copy(const Eigen::Vector3d& from, float* to) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
-}
-
 void Copy(const Eigen::Quaterniond& from, float* to) {
   to[0] = static_cast<float>(from.w());
   to[1] = static_cast<float>(from.x());
@@ -23,7 +19,7 @@ void Copy(const Eigen::Quaterniond& from, float* to) {
 
 ossa_joint JointFrom(const JointEstimate& estimate) {
   ossa_joint joint{};
-  Copy(estimate.position_m, joint.position_m);
+  CopyVector(estimate.position_m, joint.position_m);
   Copy(estimate.orientation, joint.orientation_wxyz);
   joint.confidence = static_cast<float>(estimate.confidence);
   joint.reliability = static_cast<float>(estimate.reliability);
@@ -32,10 +28,10 @@ ossa_joint JointFrom(const JointEstimate& estimate) {
 }
 
 void Copy(const recon::Posture& from, float (*to)[3]) {
-  for (size_t j = 0; j < OSSA_JOINT_COUNT; ++j) Copy(from.position_m[j], to[j]);
+  for (size_t j = 0; j < OSSA_JOINT_COUNT; ++j) CopyVector(from.position_m[j], to[j]);
 }
 
-// What stands beside the skeleton: stages before it, bones.
+// Results of the earlier stages, and bone lengths.
 void AddStages(const Body& body, ossa_body& c) {
   Copy(body.raw.posture, c.raw_m);
   Copy(body.refined ? *body.refined : body.raw.posture, c.refined_m);
@@ -66,7 +62,7 @@ void AddFit(const Body& body, const recon::BodySurface* surface, ossa_body& c) {
 ossa_body BodyFrom(const Body& body, const recon::BodySurface* surface) {
   ossa_body c{};
   c.id = body.id;
-  Copy(body.position_m, c.position_m);
+  CopyVector(body.position_m, c.position_m);
   c.clipped_edges = body.clipped_edges;
   c.person_score = static_cast<float>(body.person_score);
   if (body.state != BodyState::kTracked) return c;
@@ -103,9 +99,9 @@ ossa_frame FrameFrom(const BodyFrame& bodies, Mount mount) {
 ossa_object ObjectFrom(const SceneObjectState& object) {
   ossa_object c{};
   c.name = object.name.c_str();
-  Copy(object.position_m, c.position_m);
+  CopyVector(object.position_m, c.position_m);
   Copy(object.orientation, c.orientation_wxyz);
-  Copy(object.velocity_m_s, c.velocity_m_s);
+  CopyVector(object.velocity_m_s, c.velocity_m_s);
   const size_t holders = std::min<size_t>(object.held_by.size(), OSSA_MAX_BODIES);
   std::copy_n(object.held_by.begin(), holders, c.held_by);
   c.held_by_count = static_cast<int32_t>(holders);

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -9,15 +10,15 @@
 #include "ossa/ossa_c.h"
 #include "tools/tracker/c_structs_internal.h"
 
-/// What the files behind ossa_c.h share.
+/// Shared by the files that implement ossa_c.h.
 namespace ossa::tracker {
 
-/// The one thing a C caller cannot be handed otherwise: why its thread's last call failed.
+/// The message of the last failed call of this thread, which C calls cannot return.
 const char* LastError();
-/// Takes no memory and throws nothing: what failed may have been for want of memory.
+/// Does not allocate, because the failure may be a lack of memory.
 void SetLastError(const char* text) noexcept;
 
-/// Runs `call`, which returns an ossa_status; what it throws becomes OSSA_FAILED and LastError.
+/// Runs `call`, which returns an ossa_status; an exception becomes OSSA_FAILED and LastError.
 template <typename Call>
 ossa_status Guarded(const Call& call) {
   try {
@@ -35,7 +36,7 @@ inline void RequireNotNull(const void* pointer, const char* call, const char* wh
   throw std::invalid_argument(std::string(call) + ": expected " + what + ", found NULL");
 }
 
-/// Throws unless there are so many of what a caller asks for one by its place.
+/// Throws unless `place` is a valid index below `count`.
 inline void RequirePlace(int32_t place, size_t count, const char* call, const char* counted) {
   if (place >= 0 && static_cast<size_t>(place) < count) return;
   throw std::invalid_argument(std::string(call) + ": expected a place below the frame's " +
@@ -43,12 +44,16 @@ inline void RequirePlace(int32_t place, size_t count, const char* call, const ch
                               std::to_string(place));
 }
 
+inline void CopyVector(const Eigen::Vector3d& from, float* to) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+}
+
 inline std::string TextOr(const char* text, const char* otherwise) {
   return text == nullptr ? otherwise : text;
 }
 
-/// Throws unless struct_size can be: that of an earlier version of the struct (StructFacts), of
-/// this one, or of a later one, which is not so much that it was never set.
+/// Throws unless struct_size is plausible: of an earlier version of the struct (StructFacts), of
+/// this one, or of a later one within a limit that uninitialised values exceed.
 template <typename T>
 void CheckSize(const T& given) {
   using Facts = StructFacts<T>;
@@ -62,7 +67,7 @@ void CheckSize(const T& given) {
                               std::to_string(given.struct_size));
 }
 
-/// What a caller handed over: members that it was compiled without are 0. Throws where it sets
+/// A caller's struct in this version; members it was compiled without are 0. Throws if it sets
 /// members that this library does not know.
 template <typename T>
 T ReadStruct(const T& given) {
@@ -81,7 +86,7 @@ T ReadStruct(const T& given) {
   return value;
 }
 
-/// Fills as much of *to as its owner was compiled with.
+/// Fills the part of *to that its owner was compiled with.
 template <typename T>
 void FillStruct(T value, T* to) {
   CheckSize(*to);

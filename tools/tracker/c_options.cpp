@@ -1,4 +1,4 @@
-// What ossa_c.h says of how a tracker works, in the tracker's own terms.
+// Conversion of ossa_options to TrackerOptions.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -11,7 +11,7 @@
 namespace ossa::tracker {
 namespace {
 
-// Files that a method does not read would be left out in silence; as Python's, the call fails.
+// A file that the method does not read is an error, as in Python, instead of being ignored.
 void CheckFilesAreRead(const ModelFiles& files, const std::string& method) {
   const recon::MethodInfo& info = recon::RequireMethod(method);
   const auto check = [&](const std::string& file, bool is_read, const char* member) {
@@ -24,7 +24,7 @@ void CheckFilesAreRead(const ModelFiles& files, const std::string& method) {
   check(files.database, info.database != recon::Reads::kNothing, "database");
 }
 
-/// One of `names`, by its number. Throws InputError for another.
+/// The enumerator with the index of `given` in `names`. Throws InputError for others.
 template <typename Choice, size_t N>
 Choice ChoiceFrom(const std::array<std::string_view, N>& names, const std::string& given,
                   const char* member) {

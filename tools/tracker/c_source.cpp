@@ -1,4 +1,4 @@
-// The sources of depth images behind ossa_c.h.
+// Sources of depth images, for ossa_c.h.
 #include <algorithm>
 #include <chrono>
 #include <deque>
@@ -37,7 +37,7 @@ using std::chrono::duration;
 using std::chrono::duration_cast;
 using std::chrono::milliseconds;
 
-// Far beyond any use, by hand: a wait of eleven days, units of a micrometre.
+// Far beyond any use, by hand: a wait of eleven days, depth units of a micrometre.
 constexpr double kMost = 1e6;
 
 void RequireInRange(double value, const char* member) {
@@ -87,7 +87,7 @@ ossa_depth_image ImageFrom(const ossa::depth::DepthFrame& frame) {
 
 using Notes = std::deque<ossa_source::Note>;
 
-// What stops the search stops the source, too, and is told of when that is opened.
+// Errors are ignored here: opening the source reports them again.
 void FindCamera(const std::string& name, ossa::depth::SourceOptions& options, Notes& notes) {
   if (options.camera) return;
   ossa::depth::SourceOptions silent = options;

@@ -6,9 +6,9 @@
 
 namespace ossa::tracker {
 
-/// Of a struct that grows: its name, for messages; `kEarlier`, the sizes that it had before, each
-/// the offset of what was added then; `kEnd`, where its last member ends. Behind that there must be
-/// no padding: a member that is added lies behind all that older programs know of.
+/// Facts of a versioned struct: its name, for messages; `kEarlier`, its sizes in earlier versions,
+/// each the offset of the first member added then; `kEnd`, the end of its last member. There must
+/// be no padding at the end, so that an added member lies outside earlier sizes.
 template <typename T>
 struct StructFacts;
 

@@ -21,7 +21,7 @@ using ossa::tracker::RequireNotNull;
 using ossa::tracker::RequirePlace;
 using ossa::tracker::TextOr;
 
-// Checked before a pixel is read: the camera says how many there are.
+// Checked before a pixel is read, because the camera determines their number.
 ossa::depth::DepthFrame DepthFrom(const ossa_depth_image& given, int64_t index) {
   const ossa_depth_image image = ReadStruct(given);
   RequireNotNull(image.depth_mm, "ossa_tracker_track", "depths");
@@ -33,23 +33,24 @@ ossa::depth::DepthFrame DepthFrom(const ossa_depth_image& given, int64_t index) 
   return frame;
 }
 
-/// Hands a frame out: what is asked for afterwards is of this one. None: nobody is in it.
-ossa_status Tell(std::optional<BodyFrame> bodies, ossa_status otherwise, ossa_tracker& tracker,
-                 ossa_frame* frame) {
+/// Returns a frame and keeps it for later calls. Without `bodies`: an empty frame and the status
+/// `otherwise`.
+ossa_status ReturnFrame(std::optional<BodyFrame> bodies, ossa_status otherwise,
+                        ossa_tracker& tracker, ossa_frame* frame) {
   const ossa_status status = bodies ? OSSA_OK : otherwise;
   tracker.last = bodies ? std::move(*bodies) : BodyFrame{};
   FillStruct(FrameFrom(tracker.last, tracker.tracker.mount()), frame);
   return status;
 }
 
-/// A body of the last frame. Throws where there are not so many.
+/// A body of the last frame. Throws if there is none at this index.
 const Body& BodyAt(const ossa_tracker* tracker, int32_t place, const char* call) {
   RequireNotNull(tracker, call, "a tracker");
   RequirePlace(place, tracker->last.bodies.size(), call, "body_count");
   return tracker->last.bodies[static_cast<size_t>(place)];
 }
 
-/// The skin of the fitted surface, read once. Throws InputError where there is none.
+/// The skin of the fitted surface, loaded once. Throws InputError if there is none.
 const ossa::recon::BodyMesh& FindMesh(ossa_tracker& tracker) {
   if (tracker.mesh) return *tracker.mesh;
   const bool has_any = tracker.surface != nullptr && tracker.mesh_file != "none";
@@ -64,7 +65,7 @@ const ossa::recon::BodyMesh& FindMesh(ossa_tracker& tracker) {
   return *tracker.mesh;
 }
 
-/// Of who was not fitted, without vertices.
+/// The skin in the fitted pose; without vertices if the body was not fitted.
 ossa_skin PoseSkin(const Body& body, const ossa::recon::BodyMesh& mesh,
                    std::vector<float>& vertices_m) {
   static_assert(sizeof(ossa::recon::MeshTriangle) == 3 * sizeof(uint32_t));
@@ -82,7 +83,7 @@ ossa_skin PoseSkin(const Body& body, const ossa::recon::BodyMesh& mesh,
   return skin;
 }
 
-// A call that changes a tracker and cannot but succeed, once there is one.
+// A call that changes a tracker.
 template <typename Change>
 ossa_status Changed(ossa_tracker* tracker, const char* call, const Change& change) {
   return Guarded([&] {
@@ -97,7 +98,7 @@ ossa_status Changed(ossa_tracker* tracker, const char* call, const Change& chang
 namespace ossa::tracker {
 namespace {
 
-// A plain array: it is there until the thread is gone, whatever else is destroyed before.
+// A plain array, which is valid until the thread ends, whatever is destroyed before.
 constexpr size_t kLongestError = 8192;  // bytes; by hand: two of the longest paths
 thread_local char last_error[kLongestError] = "";
 
@@ -149,7 +150,7 @@ ossa_tracker* ossa_tracker_create(const ossa_options* options) {
     auto made = std::make_unique<ossa_tracker>(ossa::tracker::OptionsFrom(given),
                                                TextOr(given.surface, ""), TextOr(given.mesh, ""));
     const bool is_named = !made->mesh_file.empty() && made->mesh_file != "none";
-    if (is_named) FindMesh(*made);  // says now what is wrong with the file
+    if (is_named) FindMesh(*made);  // reports a bad file now
     tracker = made.release();
     return OSSA_OK;
   });
@@ -164,10 +165,10 @@ ossa_status ossa_tracker_track(ossa_tracker* tracker, const ossa_depth_image* im
     RequireNotNull(tracker, "ossa_tracker_track", "a tracker");
     RequireNotNull(image, "ossa_tracker_track", "an image");
     RequireNotNull(frame, "ossa_tracker_track", "a frame");
-    ossa::tracker::CheckSize(*frame);  // before anything moves on in time
+    ossa::tracker::CheckSize(*frame);  // before the tracker's state changes
     auto bodies = tracker->tracker.TrackWithLag(DepthFrom(*image, tracker->images));
     ++tracker->images;
-    return Tell(std::move(bodies), OSSA_HELD, *tracker, frame);
+    return ReturnFrame(std::move(bodies), OSSA_HELD, *tracker, frame);
   });
 }
 
@@ -176,7 +177,7 @@ ossa_status ossa_tracker_drain_lag(ossa_tracker* tracker, ossa_frame* frame) {
     RequireNotNull(tracker, "ossa_tracker_drain_lag", "a tracker");
     RequireNotNull(frame, "ossa_tracker_drain_lag", "a frame");
     ossa::tracker::CheckSize(*frame);
-    return Tell(tracker->tracker.DrainLag(), OSSA_END, *tracker, frame);
+    return ReturnFrame(tracker->tracker.DrainLag(), OSSA_END, *tracker, frame);
   });
 }
 

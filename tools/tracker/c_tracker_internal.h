@@ -11,19 +11,19 @@
 #include "recon/fit/body_mesh.h"
 #include "tools/tracker/tracker.h"
 
-/// What a C program holds: a tracker, and all that the pointers handed out point into.
+/// The handle of a C program: a tracker and the data that returned pointers refer to.
 struct ossa_tracker {
   ossa_tracker(const ossa::tracker::TrackerOptions& options, std::string surface, std::string mesh);
 
   ossa::tracker::Tracker tracker;
-  int64_t images = 0;  // tracked since it was created or reset
+  int64_t images = 0;  // number of tracked images since creation or reset
   ossa::tracker::BodyFrame last;
   bool is_seated = false;
-  // Null without a surface to fit: who asks for stature, shape or skin learns that there is none.
+  // Null without a surface to fit: calls for stature, shape or skin then fail.
   std::shared_ptr<const ossa::recon::BodySurface> surface;
   std::string surface_file, mesh_file;  // as ossa_options names them, "": the shipped one
-  std::shared_ptr<const ossa::recon::BodyMesh> mesh;  // read for who first asks for a skin
-  std::vector<float> skin_m;                          // of the last skin that was asked for
+  std::shared_ptr<const ossa::recon::BodyMesh> mesh;  // loaded with the first skin
+  std::vector<float> skin_m;                          // of the last skin
   std::deque<std::string> warnings;                   // of the models, not yet taken
   std::string taken_note;
 };
@@ -36,11 +36,10 @@ class FrameSource;
 
 namespace ossa::tracker {
 
-/// In the tracker's own terms. Throws InputError and std::invalid_argument.
+/// Converts the options. Throws InputError and std::invalid_argument.
 TrackerOptions OptionsFrom(const ossa_options& given);
 
-/// A frame whose pixels stay the caller's; the image says how many there are, so that it is checked
-/// before one is read. Without `depths` none are.
+/// The camera of an image, checked.
 depth::Camera CameraFrom(const ossa_depth_image& image);
 
 ossa_frame FrameFrom(const BodyFrame& bodies, Mount mount);

@@ -1,4 +1,4 @@
-// Skeleton files behind ossa_c.h.
+// Skeleton files, for ossa_c.h.
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@ struct ossa_writer {
 
   ossa::recon::SkeletonWriter file;
   ossa::tracker::PostureKind posture = ossa::tracker::PostureKind::kFinal;
-  std::optional<ossa::DiskFull> full;  // what stopped it
+  std::optional<ossa::DiskFull> full;  // the failure that stopped writing
   bool is_finished = false;
 };
 
@@ -60,7 +60,7 @@ void Write(const ossa_tracker& tracker, ossa_writer& writer) {
   }
 }
 
-// Of what does not fit, what is whole before it; the failure says how much.
+// If the disk is full, keeps the complete frames; the error tells how many.
 void FinishFile(ossa_writer& writer) {
   try {
     if (writer.full) throw ossa::DiskFull(*writer.full);

@@ -20,11 +20,11 @@ double BoneCost(double length_m, double expected_m, const ChoiceOptions& options
 
 struct Option {
   const Proposal* proposal = nullptr;  // null: missing
-  double cost = 0;                     // own, and of the best choice of all children
+  double cost = 0;  // its own cost plus those of the best choices of all descendants
   recon::JointArray<int> child_choice{};
 };
 
-// Exact minimum over the tree of joints: children before parents (Viterbi).
+// Exact minimum over the tree of joints by dynamic programming, children before parents (Viterbi).
 class Chooser {
  public:
   Chooser(const std::vector<std::vector<Proposal>>& proposals, const people::JointTargets& targets,
@@ -101,8 +101,9 @@ recon::TrackingState DecideState(const Proposal& proposal, const forest::Proposa
   return tracked ? recon::TrackingState::kTracked : recon::TrackingState::kInferred;
 }
 
-// One surface cannot be both hands, or both knees: of two of a pair at one place the weaker goes.
-void DropDoubles(double one_place_m, recon::TrackedPosture& posture) {
+// If a joint and its mirrored one (hands, knees) are at one place, the less confident one becomes
+// inferred.
+void InferDuplicates(double one_place_m, recon::TrackedPosture& posture) {
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto m = recon::kMirroredJoint[j];
     if (m <= j || posture.state[j] == recon::TrackingState::kNotTracked ||
@@ -116,8 +117,8 @@ void DropDoubles(double one_place_m, recon::TrackedPosture& posture) {
   }
 }
 
-// A hip is seen where a thigh begins. Of a body cut off at the waist, by the image or by a table,
-// the forest knows well where the hips must be; but nobody sees them.
+// Hips count as seen only with visible thighs. For a body cut off at the waist, by the image or a
+// table, the forest infers the hips with high confidence.
 void InferHipsWithoutLegs(const ChoiceContext& context, recon::TrackedPosture& posture) {
   if (context.leg_area_m2 >= context.options.thigh_m2) return;
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -148,7 +149,7 @@ recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
     result.confidence[j] = chosen[j]->confidence;
     result.state[j] = DecideState(*chosen[j], target, *context.camera);
   }
-  DropDoubles(context.options.one_place_m, result);
+  InferDuplicates(context.options.one_place_m, result);
   InferHipsWithoutLegs(context, result);
   return result;
 }

@@ -33,12 +33,12 @@ std::optional<recon::Posture> WholePosture(const recon::BodyRecord& body) {
 
 // Constants: chosen by hand.
 
-constexpr double kStraight_deg = 20.0;  // legs and trunk in line within so much
-constexpr double kTilted_deg = 40.0;    // no camera is tilted by more
+constexpr double kStraight_deg = 20.0;  // largest angle between legs, trunk and the up direction
+constexpr double kTilted_deg = 40.0;    // largest tilt of a camera
 constexpr size_t kFewest_frames = 15;   // half a second of one person at 30 a second
 constexpr double kSole_m = 0.03;        // from a foot joint to the sole, as of the character's feet
 
-/// From the ankles to the shoulders of somebody who stands straight; nothing of others.
+/// The up direction of a person who stands straight; nothing for others.
 std::optional<Vector3d> FindStandingUp(const recon::Posture& p) {
   const Vector3d feet = 0.5 * (p[Joint::kAnkleLeft] + p[Joint::kAnkleRight]);
   const Vector3d knees = 0.5 * (p[Joint::kKneeLeft] + p[Joint::kKneeRight]);
@@ -53,7 +53,7 @@ std::optional<Vector3d> FindStandingUp(const recon::Posture& p) {
   return up.normalized();
 }
 
-/// One person's frames without a gap, all joints there.
+/// Consecutive frames of one person with all joints.
 using Run = std::vector<physics::BodyPose>;
 
 constexpr double kLongestGap_s = 0.25;  // by hand, as of physics/character_filter.h
@@ -88,7 +88,7 @@ std::string ColumnsText() {
   add("centre_of_mass", "m");
   text += ",free_moment_nm";
   for (size_t i = 2; i < kJointCount; ++i) {
-    // The joint that turns, and towards which: three bones begin at the hip centre.
+    // The joint and the bone's end: three bones begin at the hip centre.
     add("torque_" + std::string(recon::kJointNames[recon::ParentOf(i)]) + "_to_" +
             std::string(recon::kJointNames[i]),
         "nm");
@@ -157,7 +157,7 @@ void WriteDynamics(const std::filesystem::path& path, const recon::SkeletonSeque
   size_t lines = 0;
   for (const auto& [id, runs] : SplitIntoRuns(sequence)) {
     for (const Run& run : runs) {
-      if (run.size() < 3) continue;  // no acceleration can be had
+      if (run.size() < 3) continue;  // too few for an acceleration
       const auto bones_m = recon::MeasureBoneLengths(run.front().posture);
       const auto dynamics = physics::ComputeDynamics(bones_m, run, options);
       for (size_t k = 0; k < run.size(); ++k) {

@@ -6,14 +6,14 @@
 namespace ossa::tracker {
 namespace {
 
-/// The pixels that the forest classified, and what it called them.
+/// Classified pixels and their part labels.
 struct Labelled {
   std::vector<int32_t> pixels;  // of the frame
   std::vector<uint8_t> parts;
 };
 
-// Those of the candidate's: classified may have been furniture that was taken off since. Both lists
-// ascend.
+// Classified pixels that are still in the candidate, from which furniture may have been removed
+// since. Both lists ascend.
 Labelled LabelledPixels(const depth::DepthFrame& frame, const people::Detection& detection) {
   const auto& seen = detection.evidence.classification;
   const auto& own = detection.candidate.pixels;
@@ -41,7 +41,7 @@ std::optional<recon::SurfaceFit> FitSurface(const depth::DepthFrame& frame,
   const Labelled labelled = LabelledPixels(frame, detection);
   recon::SurfaceFitInput input;
   input.joints_m = body.refined ? *body.refined : body.raw.posture;
-  // Of joints that the forest does not find the refinement says where they are all the same.
+  // The refinement also places joints that the forest did not find; these get confidence 0.
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool found = body.raw.state[j] != recon::TrackingState::kNotTracked;
     if (found) input.confidence[j] = body.raw.confidence[j];

@@ -8,15 +8,15 @@
 
 namespace ossa::tracker {
 
-/// The body whose surface explains the person's pixels, from the refined joints in `body` on, else
-/// from the raw ones; the person's shape gets its vote. None where the image shows too little.
+/// Fits the body surface to the person's pixels, starting from the refined joints in `body`, else
+/// from the raw ones, and updates the person's shape. Nothing if too little is visible.
 std::optional<recon::SurfaceFit> FitSurface(const depth::DepthFrame& frame,
                                             const people::Detection& detection, const Body& body,
                                             Person& person);
 
-/// Trusts joints less whose segments are far from the pixels that they should explain (confidence
-/// or reliability, [0, 1]), see SurfaceFitOptions::doubt_residual_m. Of segments without pixels
-/// nothing is said.
+/// Lowers the trust (confidence or reliability, [0, 1]) in joints whose segments are far from the
+/// pixels they should explain, see SurfaceFitOptions::doubt_residual_m. Segments without pixels are
+/// left alone.
 void DoubtUnexplained(const recon::SurfaceFit& fit, const recon::BodySurface& surface,
                       double doubt_residual_m, recon::JointArray<double>& trust);
 

@@ -4,7 +4,8 @@
 
 namespace ossa::tracker {
 
-PartProbabilities NobodyIn(const depth::DepthFrame& frame, const forest::ForestModel& model) {
+PartProbabilities ZeroProbabilities(const depth::DepthFrame& frame,
+                                    const forest::ForestModel& model) {
   const auto pixels = static_cast<size_t>(frame.camera.width * frame.camera.height);
   return {frame.camera.width, frame.camera.height, model.class_count(),
           std::vector<float>(pixels * static_cast<size_t>(model.class_count()))};
@@ -20,7 +21,7 @@ void AddProbabilities(const forest::Classification& seen, PartProbabilities& pro
 
 namespace {
 
-// Its part and its probabilities, where the frame has them.
+// Part and probabilities of one pixel, where the frame has them.
 void ClearPixel(size_t pixel, BodyFrame& frame) {
   const auto classes = static_cast<size_t>(frame.probabilities.classes);
   if (!frame.parts.data.empty()) frame.parts.data[pixel] = 0;

@@ -5,17 +5,18 @@
 
 namespace ossa::tracker {
 
-/// Probabilities of a frame in which nobody is found yet: 0 everywhere.
-PartProbabilities NobodyIn(const depth::DepthFrame& frame, const forest::ForestModel& model);
+/// Probabilities of a frame without people: 0 everywhere.
+PartProbabilities ZeroProbabilities(const depth::DepthFrame& frame,
+                                    const forest::ForestModel& model);
 
-/// Enters a person's pixels.
+/// Copies the probabilities of a person's pixels.
 void AddProbabilities(const forest::Classification& seen, PartProbabilities& probabilities);
 
-/// Takes the pixels of somebody who turned out to be nobody out of parts and probabilities, where
-/// the frame has them. Before they are taken out of `users`, which tells whose they are.
+/// Clears parts and probabilities of a revoked person, where the frame has them. Must be called
+/// before their pixels are cleared in `users`.
 void ClearParts(int id, BodyFrame& frame);
 
-/// Pixels that had no reading before holes were filled are nobody's.
+/// Clears pixels that had no reading before holes were filled.
 void ClearHoles(const depth::DepthView& depth_mm, BodyFrame& frame);
 
 }  // namespace ossa::tracker

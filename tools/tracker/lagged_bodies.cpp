@@ -47,17 +47,17 @@ BodyFrame LaggedBodies::TakeOldest() {
   return frame;
 }
 
-// Frames without the person are no frames of their way: it ends there if that was long.
+// Frames without the person are skipped; SmoothedAt ends the trajectory at long gaps.
 void LaggedBodies::Smooth(Body& body, size_t at) const {
-  std::vector<recon::TimedPosture> way;
+  std::vector<recon::TimedPosture> trajectory;
   size_t own = 0;
   for (size_t f = 0; f < window_.size(); ++f) {
     const auto found = window_[f].find(body.id);
     if (found == window_[f].end()) continue;
-    if (f == at) own = way.size();
-    way.push_back(found->second);
+    if (f == at) own = trajectory.size();
+    trajectory.push_back(found->second);
   }
-  const recon::TimedPosture smoothed = recon::SmoothedAt(way, own, options_);
+  const recon::TimedPosture smoothed = recon::SmoothedAt(trajectory, own, options_);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     body.joints[j].position_m = smoothed.posture.position_m[j];
     body.joints[j].orientation = smoothed.orientation[j];

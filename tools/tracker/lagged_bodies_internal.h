@@ -8,15 +8,15 @@
 
 namespace ossa::tracker {
 
-/// Bodies some frames later, their joints smoothed by what came before and after. Every frame that
-/// goes in comes out once, in order, whoever is in it, under its own index and time.
+/// A delay line that smooths joints over the frames before and after. Every frame that goes in
+/// comes out once, in order, with its own index and time.
 class LaggedBodies {
  public:
   explicit LaggedBodies(const recon::LagOptions& options) : options_(options) {}
-  /// One more frame; the oldest one held, once so many came after it.
+  /// Adds a frame; returns the oldest held one once the lag is full.
   std::optional<BodyFrame> Add(BodyFrame frame);
-  /// At the end of a stream: the oldest frame held, smoothed by what there is; none when all are
-  /// out. Frames that are added afterwards belong to another stream.
+  /// At the end of a stream: the oldest held frame, smoothed with the available ones; nothing when
+  /// all were returned. Frames added afterwards belong to another stream.
   std::optional<BodyFrame> DrainLag();
 
  private:
@@ -25,7 +25,7 @@ class LaggedBodies {
 
   recon::LagOptions options_;
   std::deque<BodyFrame> held_;
-  // By body id, of the held frames and of as many before them as the lag is long.
+  // Postures by body id, of the held frames and of as many frames before them as the lag is long.
   std::deque<std::map<int, recon::TimedPosture>> window_;
 };
 

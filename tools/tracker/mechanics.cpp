@@ -13,7 +13,8 @@ namespace {
 
 using recon::kJointCount;
 
-/// The posture's bones; the standard ones, at the size of the others, where they cannot be had.
+/// Bone lengths of a posture; implausible ones are replaced by standard ones at the scale of the
+/// others.
 recon::BoneLengths MeasureSaneBones(const recon::Posture& posture) {
   recon::BoneLengths lengths_m = recon::MeasureBoneLengths(posture);
   recon::JointWeights sane{};
@@ -31,13 +32,14 @@ recon::BoneLengths MeasureSaneBones(const recon::Posture& posture) {
 
 // Constants: chosen by hand on rendered indoor scenes.
 
-// What nobody sees was completed by the reconstruction. Left to itself by the character, an unseen
-// foot hangs off the ankle, 14 cm wrong instead of 5 (rendered rooms).
+// Least weight of an unseen joint, which the reconstruction placed. Without it an unseen foot hangs
+// off the ankle, 14 cm wrong instead of 5 (rendered rooms).
 constexpr double kCompleted = 0.5;
 
-// A sensor that sees no floor may take the top of a table for it, and legs that nobody sees behind
-// it would be lifted onto it (rendered rooms: feet 23 cm wrong instead of 16). Who stands on a
-// floor is not wrong by so much; from the lesser depth on the floor is believed again.
+// Depth of a joint below the floor from which the floor is rejected, and up to which it is accepted
+// again. A sensor that sees no floor may detect a table top as floor, and legs occluded by the
+// table would be lifted onto it (rendered rooms: feet 23 cm wrong instead of 16). People standing
+// on a floor are never this far below it.
 constexpr double kImpossible_m = 0.2, kPossible_m = 0.1;
 
 bool AllFinite(const recon::Posture& posture) {
@@ -45,7 +47,7 @@ bool AllFinite(const recon::Posture& posture) {
                      [](const Eigen::Vector3d& p) { return p.allFinite(); });
 }
 
-/// Of a body all of whose bones have one.
+/// Orientations, if all bones have one.
 std::optional<recon::JointOrientations> FindOrientations(const recon::BodyRecord& body) {
   recon::JointOrientations orientations;
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -67,7 +69,13 @@ void FollowBody(const recon::SkeletonFrame& frame, Mechanics& mechanics, recon::
   }
   const auto made =
       mechanics.Follow(target, trust, frame.floor, frame.time_s, FindOrientations(body));
-  if (!made) return;
+  if (made) SetJoints(made->posture, made->orientation, body);
+}
+
+}  // namespace
+
+void SetJoints(const recon::Posture& posture, const recon::JointOrientations& orientation,
+               recon::BodyRecord& body) {
   for (size_t i = 0; i < kJointCount; ++i) {
     auto& joint = body.joints[i];
     if (!joint) {
@@ -75,12 +83,10 @@ void FollowBody(const recon::SkeletonFrame& frame, Mechanics& mechanics, recon::
       joint->state = recon::TrackingState::kInferred;
       joint->reliability = 0.0;
     }
-    joint->position_m = made->posture.position_m[i];
-    joint->orientation = made->orientation[i];
+    joint->position_m = posture.position_m[i];
+    joint->orientation = orientation[i];
   }
 }
-
-}  // namespace
 
 std::optional<Eigen::Vector4d> Mechanics::OwnFloor(const recon::Posture& target,
                                                    const std::optional<Eigen::Vector4d>& floor) {

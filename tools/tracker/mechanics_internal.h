@@ -11,44 +11,53 @@
 
 namespace ossa::tracker {
 
-/// Which bones a person's character has: those of the first posture, and others once the postures
-/// have come to have others for a while.
+/// The bone lengths of a character: of the first posture, and new ones once the postures have had
+/// others for several frames.
 class CharacterBones {
  public:
-  /// True when the character is to be made, the first time or anew. Bones that cannot be had are
-  /// the standard ones, at the size of the others.
+  /// True if the character must be built or rebuilt. Missing bones get standard lengths at the
+  /// scale of the others.
   bool Update(const recon::Posture& seen);
   const recon::BoneLengths& lengths_m() const { return bones_m_; }
 
  private:
-  recon::BoneLengths bones_m_{};   // the character's; 0 before there is one
+  recon::BoneLengths bones_m_{};   // of the character; 0 before there is one
   recon::BoneLengths latest_m_{};  // of the last posture
-  int same_frames_ = 0;            // for how long they have been so
+  int same_frames_ = 0;            // frames for which latest_m_ stayed the same
 };
 
-/// How far a character is led to a joint that is known and trusted so: what nobody saw was placed
-/// by someone who knew better.
+/// Rate at which characters follow the tracker's final targets, which are smooth. By a sweep over
+/// four rendered clips: at 35, 50, 60, 70 the joint error is 6.27, 6.03, 5.95, 5.91 cm and the
+/// acceleration error 1.48, 1.67, 1.80, 1.91 cm/frame^2; without a character 5.87 and 3.33.
+inline constexpr double kFollowing_rad_s = 60.0;  // measured
+
+/// Replaces all joints of a body by those of its character; joints that were absent become
+/// inferred.
+void SetJoints(const recon::Posture& posture, const recon::JointOrientations& orientation,
+               recon::BodyRecord& body);
+
+/// The weight with which a character follows a known joint: not below the trust in a reconstructed
+/// joint.
 double HeldTrust(double trust);
 
-/// The mechanical character of one person: made at the first posture, with its bones, and led by
-/// the postures that follow. Made anew when they come to have other bones, and keep those.
+/// The mechanical character of one person: built at the first posture with its bone lengths,
+/// following the later ones. Rebuilt when the bone lengths change and stay changed.
 class Mechanics {
  public:
-  /// `rate_rad_s`: physics::ControlGains::rate_rad_s, how fast postures are followed.
+  /// how fast postures are followed
   explicit Mechanics(const MechanicsBuild& build,
                      double rate_rad_s = physics::ControlGains{}.rate_rad_s)
       : build_(build), rate_rad_s_(rate_rad_s) {}
-  /// What the character makes of `target`, on which it is put at first, after a gap and when time
-  /// runs backwards (recon::FrameSteps); nothing of a character that came to grief. Joints that are
-  /// not finite lead it nowhere.
-  /// `orientation`: how the bones are turned about themselves, where that is known.
+  /// The character's posture when following `target`. It is placed on `target` at first, after a
+  /// gap and when time runs backwards (recon::FrameSteps). Nothing if the simulation diverged.
+  /// Joints that are not finite are ignored. `orientation`: of the bones, where known.
   std::optional<physics::FilteredPosture> Follow(
       const recon::Posture& target, std::span<const double> trust,
       const std::optional<Eigen::Vector4d>& floor, double time_s,
       const std::optional<recon::JointOrientations>& orientation = std::nullopt);
 
  private:
-  /// The floor, if it can be the one that the person stands on.
+  /// The floor, if it is plausible as the one the person stands on.
   std::optional<Eigen::Vector4d> OwnFloor(const recon::Posture& target,
                                           const std::optional<Eigen::Vector4d>& floor);
   void Make();
@@ -58,7 +67,7 @@ class Mechanics {
   std::unique_ptr<physics::CharacterFilter> character_;
   CharacterBones bones_;
   recon::FrameSteps steps_;
-  bool floor_is_another_ = false;  // what was taken for the floor is not under the person
+  bool floor_is_another_ = false;  // the detected floor is not under the person
 };
 
 }  // namespace ossa::tracker

@@ -39,12 +39,12 @@ std::filesystem::path NamedOrShipped(const std::string& file, std::string_view s
   return file.empty() ? ShippedFile(shipped) : std::filesystem::path(file);
 }
 
-// A file of a camera under the ceiling: the shipped one goes by its name.
+// A file for a camera under the ceiling; the shipped one is given by name only.
 std::filesystem::path PathOrShipped(const std::string& file, const char* shipped) {
   return file == shipped ? ShippedFile(shipped) : std::filesystem::path(file);
 }
 
-// A file that a method can do without is read where it was named; one that it needs is always.
+// Optional files are read if named, required ones always.
 bool IsRead(Reads reads, const std::string& file) {
   if (file == kWithout || reads == Reads::kNothing) return false;
   return reads == Reads::kRequired || !file.empty();
@@ -60,19 +60,19 @@ std::shared_ptr<const recon::JointRefiner> ReadRefinement(const std::filesystem:
   return refinement;
 }
 
-// A refinement, and that of a camera under the ceiling, read when one is met.
+// The loaded refinement, and the file of the one for a camera under the ceiling.
 struct Refinements {
   std::shared_ptr<const recon::JointRefiner> now;
   std::string now_file;     // of `now`
   bool is_shipped = false;  // `now`
   std::string ceiling_file;
-  // Of the one that was named:
+  // Of the named one:
   uint64_t forest_checksum = 0;  // as RefinementCascade's
   bool is_for_ceiling = false;   // it is ceiling_file
 };
 
-// A refinement that was named is had with every method: its joints may be what is wanted. Beside
-// the shipped forest it leaves the shipped one of the other mount.
+// A named refinement is loaded for every method, because its joints may be the wanted output. With
+// the shipped forest it replaces only the one for its own mount.
 Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
   if (files.refinement == kWithout) return {};
   const bool named = !files.refinement.empty();
@@ -101,8 +101,8 @@ Refinements LoadRefinements(const ModelFiles& files, const MethodInfo& method) {
   return out;
 }
 
-// Joints lie elsewhere where another forest proposes them: refined as if they were those that the
-// cascade was learned at, they are wrong in silence. Files of before version 8 do not say whose.
+// A refinement cascade is wrong on the joints of another forest than the one it was trained with.
+// Files before version 8 do not name their forest.
 std::vector<std::string> WarnOfOtherForest(const ModelFiles& files, const Refinements& read) {
   if (read.forest_checksum == 0) return {};
   const auto forest =
@@ -112,7 +112,7 @@ std::vector<std::string> WarnOfOtherForest(const ModelFiles& files, const Refine
                     forest.string() + ": 'ossa refine' trains one at those")};
 }
 
-// From the tables that an earlier start left; null where there are none.
+// The forest from tables kept by an earlier start; null if there are none.
 std::shared_ptr<const forest::ForestModel> KeptForest(const ModelFiles& files,
                                                       const std::filesystem::path& path) {
   if (!IsShippedForest(files)) return nullptr;
@@ -134,22 +134,22 @@ std::shared_ptr<const recon::BodySurface> LoadSurface(const ModelFiles& files) {
       recon::BodySurface::Load(NamedOrShipped(files.surface, recon::kShippedSurface)));
 }
 
-// Of a forest that was shown our own bodies: bones have the proportions of the standard body.
-std::shared_ptr<const recon::LearnedModels> ProportionsAlone() {
+// For a forest trained on our own bodies: bones have the proportions of the standard body.
+std::shared_ptr<const recon::LearnedModels> StandardProportions() {
   auto models = std::make_shared<recon::LearnedModels>();
   models->correction.proportions.fill(1.0);
   return models;
 }
 
-// The network has its say beside the shipped cascade: one that was named is seen as it is.
+// The network is used with the shipped cascade only; a named cascade is evaluated alone.
 std::string PoseNetworkOf(const ModelFiles& files, const Refinements& read) {
   if (!files.pose_network.empty()) return files.pose_network;
   return std::string(read.is_shipped && IsShippedForest(files) ? kShippedNetwork : kWithout);
 }
 
-// What is known of the errors that a refinement leaves in the shipped forest's joints is shipped
-// with them (tools/train_correction). Of other joints it is known that their forest was shown our
-// own bodies: bones are expected in the proportions of the standard body.
+// A correction of the errors that refinement leaves in the shipped forest's joints is shipped
+// (tools/train_correction). For other joints, bones are expected in the proportions of the standard
+// body, on which their forest was trained.
 std::shared_ptr<const recon::LearnedModels> LoadLearned(const ModelFiles& files,
                                                         const MethodInfo& method, bool refined) {
   if (IsRead(method.learned, files.learned) && !files.learned.empty()) {
@@ -160,7 +160,7 @@ std::shared_ptr<const recon::LearnedModels> LoadLearned(const ModelFiles& files,
     return std::make_shared<recon::LearnedModels>(
         recon::LearnedModels::Load(ShippedFile(kCorrection)));
   }
-  return ProportionsAlone();
+  return StandardProportions();
 }
 
 }  // namespace
@@ -205,7 +205,7 @@ ModelSet ModelSet::Load(const ModelFiles& files, std::string_view method) {
   ModelSet set;
   const auto forest = NamedOrShipped(files.forest, kForest);
   auto refinements = std::async(std::launch::async, [&] { return LoadRefinements(files, info); });
-  // What a refinement is read through and kept tables take more memory than anything afterwards.
+  // Reading a refinement and kept tables both need much temporary memory: one after the other.
   if (IsShippedForest(files) && forest::MayHaveKeptTables(forest)) refinements.wait();
   set.forest_file = files.forest.empty() ? kForest : files.forest;
   set.forest = KeptForest(files, forest);
@@ -243,7 +243,7 @@ ModelSet LoadCeilingModels(const ModelSet& models,
   set.refinement = set.refinement_file.empty()
                        ? nullptr
                        : ReadRefinement(PathOrShipped(set.refinement_file, kCeilingRefinement));
-  if (set.learned && set.learned_file.empty()) set.learned = ProportionsAlone();
+  if (set.learned && set.learned_file.empty()) set.learned = StandardProportions();
   return set;
 }
 

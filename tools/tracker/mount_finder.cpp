@@ -9,8 +9,8 @@
 namespace ossa::tracker {
 namespace {
 
-/// Cells of connected pieces, floor apart, that go on below the image: as whoever stands before a
-/// wall in view of a level camera that sees no floor.
+/// Cells of connected regions, without the floor, that the lower image border cuts off: such as a
+/// person in front of a wall, for a level camera that sees no floor.
 std::vector<uint8_t> FindCutBelow(const depth::Scene& scene, const MountOptions& options) {
   const depth::PointGrid& grid = scene.grid;
   const int lowest = static_cast<int>((1.0 - options.rim_share) * grid.height) - 1;
@@ -33,34 +33,34 @@ bool ShowsSomebody(const BodyFrame& tracked) {
 }
 
 bool MountFinder::IsDue(const BodyFrame& tracked) {
-  const double since_s = tracked.time_s - looked_s_;
+  const double since_s = tracked.time_s - checked_s_;
   if (is_level_ || (since_s >= 0 && since_s < options_.every_s)) return false;
-  looked_s_ = tracked.time_s;
+  checked_s_ = tracked.time_s;
   const bool seems_level = tracked.floor && ShowsSomebody(tracked);
   if (seems_level) {
     Confirm(View::kLevel);
-    is_level_ = ++level_looks_ >= options_.agreeing;
+    is_level_ = ++level_checks_ >= options_.agreeing;
   }
   return !seems_level;
 }
 
 bool MountFinder::MayBeCutBelow(const BodyFrame& tracked) const {
-  return looks_ > 0 && !ShowsSomebody(tracked);
+  return checks_ > 0 && !ShowsSomebody(tracked);
 }
 
 bool MountFinder::Confirm(View seen) {
-  const bool is_first = ++looks_ == 1;
+  const bool is_first = ++checks_ == 1;
   if (seen == View::kUnknown) return false;
   const bool from_above = seen == View::kFromAbove;
-  if (from_above) level_looks_ = 0;
-  above_looks_ = from_above ? above_looks_ + 1 : 0;
-  return from_above && (is_first || above_looks_ >= options_.agreeing);
+  if (from_above) level_checks_ = 0;
+  above_checks_ = from_above ? above_checks_ + 1 : 0;
+  return from_above && (is_first || above_checks_ >= options_.agreeing);
 }
 
 bool MayBeFromAbove(const depth::DepthFrame& frame, bool may_be_cut_below,
                     const people::PeopleOptions& above, const MountOptions& options) {
-  depth::SceneState nothing;
-  const depth::Scene scene = depth::MeasureScene(frame, nothing, above.scene);
+  depth::SceneState empty_state;
+  const depth::Scene scene = depth::MeasureScene(frame, empty_state, above.scene);
   if (!scene.floor) return false;
   int valid = 0, floor = 0;
   for (int cell = 0; cell < scene.grid.cells(); ++cell) {

@@ -19,9 +19,9 @@ namespace {
 using recon::kJointCount;
 using recon::TrackingState;
 
-// Neither reconstruction nor mechanics may drag a joint away from where it is seen. Joints below it
-// on the limb that are not seen move along, so that the limb keeps its shape.
-recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPosture& observed,
+// Keeps joints near their observations. Unseen joints further out on the limb move along, so that
+// the limb keeps its shape.
+recon::Posture HoldToImage(const recon::Posture& posture, const recon::TrackedPosture& observed,
                            const recon::JointArray<double>& reliability,
                            const HoldOptions& options) {
   recon::Posture held = posture;
@@ -45,11 +45,12 @@ recon::Posture HeldToImage(const recon::Posture& posture, const recon::TrackedPo
   return held;
 }
 
-// What is not seen is where the camera does not see it. The way there takes some frames, so that a
-// guess that wanders about does not flicker; what is seen is back at once.
-recon::Posture OutOfFreeSpace(recon::Posture posture, const recon::TrackedPosture& observed,
-                              const depth::DepthFrame& frame, const HoldOptions& options,
-                              Person& person) {
+// Unseen joints must be occluded: moves them out of free space, gradually, so that an unsteady
+// estimate does not flicker. Seen joints are not displaced.
+recon::Posture MoveUnseenOutOfFreeSpace(recon::Posture posture,
+                                        const recon::TrackedPosture& observed,
+                                        const depth::DepthFrame& frame, const HoldOptions& options,
+                                        Person& person) {
   const double share =
       1.0 - std::exp(-std::max(0.0, frame.time_s - person.before_s) / options.free_space_s);
   for (size_t j = 0; j < kJointCount; ++j) {
@@ -65,9 +66,8 @@ recon::Posture OutOfFreeSpace(recon::Posture posture, const recon::TrackedPostur
   return posture;
 }
 
-// Joints that are not tracked go on from where they were against their parents, no faster than a
-// guess may.
-recon::Posture WithSlowGuesses(const recon::Posture& posture, const SkeletonWork& work) {
+// Limits the speed of joints that are not tracked, relative to their parents.
+recon::Posture LimitUnseenSpeed(const recon::Posture& posture, const SkeletonWork& work) {
   const Person& person = work.person;
   const HoldOptions& options = work.options.hold;
   const double since_s = work.frame.time_s - person.shown_s;
@@ -85,12 +85,12 @@ recon::Posture WithSlowGuesses(const recon::Posture& posture, const SkeletonWork
   return slow;
 }
 
-// Joints that are held, moved aside and smoothed one by one lengthen and shorten bones, which get
-// the lengths again that they had in `whole`; what is not seen moves most.
-recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& moved,
-                           const recon::TrackedPosture& observed,
-                           const recon::JointArray<double>& reliability,
-                           const HoldOptions& options) {
+// Restores the bone lengths of `whole`, which moving joints one by one changes; unseen joints move
+// most.
+recon::Posture RestoreBoneLengths(const recon::Posture& whole, const recon::Posture& moved,
+                                  const recon::TrackedPosture& observed,
+                                  const recon::JointArray<double>& reliability,
+                                  const HoldOptions& options) {
   recon::JointWeights weights;
   for (size_t j = 0; j < kJointCount; ++j) {
     const bool seen = observed.state[j] == TrackingState::kTracked;
@@ -99,11 +99,10 @@ recon::Posture WithBonesOf(const recon::Posture& whole, const recon::Posture& mo
   return recon::WithBoneLengths(moved, recon::MeasureBoneLengths(whole), weights);
 }
 
-// `turns`: of the bones about themselves, where the method or the character knows them.
-recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
-                                           const std::optional<recon::JointOrientations>& turns,
-                                           const recon::TrackedPosture& observed,
-                                           const recon::JointArray<double>& reliability) {
+// `turns`: orientations by the method or the character, which know rotations about the bones.
+recon::JointArray<JointEstimate> MakeJointEstimates(
+    const recon::Posture& posture, const std::optional<recon::JointOrientations>& turns,
+    const recon::TrackedPosture& observed, const recon::JointArray<double>& reliability) {
   const recon::JointOrientations orientation =
       turns ? recon::AlignToBones(*turns, posture) : recon::ComputeOrientations(posture);
   recon::JointArray<JointEstimate> joints;
@@ -114,16 +113,11 @@ recon::JointArray<JointEstimate> Estimates(const recon::Posture& posture,
   return joints;
 }
 
-// How fast the mechanical character follows, whose targets are held to the image and smoothed
-// before. By a sweep over four rendered clips: 35, 50, 60, 70 put joints 6.27, 6.03, 5.95, 5.91 cm
-// off the truth and accelerations 1.48, 1.67, 1.80, 1.91 cm/frame^2, no character 5.87 and 3.33.
-constexpr double kFollowing_rad_s = 60.0;
-
-// What the method of reconstruction starts from: the joints that the latest stage says. With a
-// body's fit all of them are told, also joints that are not seen; but of somebody whose trunk is
-// out of the image, an arm of them at its border, a fit knows less than the method remembers.
-recon::TrackedPosture Observed(const Body& body, bool refined, const depth::Camera& camera,
-                               double fitted_confidence) {
+// The input of the reconstruction method: the joints of the latest stage. A surface fit gives all
+// joints, also unseen ones; but if the trunk is outside the image, the method's own memory is more
+// accurate.
+recon::TrackedPosture SelectObservation(const Body& body, bool refined, const depth::Camera& camera,
+                                        double fitted_confidence) {
   recon::TrackedPosture seen = body.raw;
   if (body.refined && refined) seen.posture = *body.refined;
   if (!body.fit) return seen;
@@ -137,10 +131,10 @@ recon::TrackedPosture Observed(const Body& body, bool refined, const depth::Came
   return seen;
 }
 
-// A joint that the forest saw, but that refinement and fit put elsewhere, is not what was seen
-// there: a desk's corner looks like a foot.
-recon::TrackedPosture WithoutContradicted(const Body& body, const depth::Camera& camera,
-                                          double elsewhere_m) {
+// Marks tracked joints as inferred where refinement and fit moved them far: a desk's corner may be
+// classified as a foot.
+recon::TrackedPosture InferContradicted(const Body& body, const depth::Camera& camera,
+                                        double elsewhere_m) {
   recon::TrackedPosture seen = body.raw;
   if (body.fit) {
     InferElsewhere(body.fit->blended_m, camera, elsewhere_m, seen);
@@ -154,8 +148,8 @@ size_t CountTracked(const recon::TrackedPosture& posture) {
   return static_cast<size_t>(std::ranges::count(posture.state, TrackingState::kTracked));
 }
 
-// Whether somebody of whom the image's border leaves less than it did is said to be elsewhere all
-// of a sudden: what is left was taken for another part of them.
+// Whether a person who is increasingly cut off by the image border jumps: the visible part was
+// classified as another part of the body.
 bool JumpsAtTheBorder(const Body& body, const recon::TrackedPosture& observed, double time_s,
                       const HoldOptions& options, const Person& person) {
   if (body.clipped_edges == 0 || !person.shown) return false;
@@ -173,13 +167,13 @@ bool JumpsAtTheBorder(const Body& body, const recon::TrackedPosture& observed, d
                          options.jump_m + options.fastest_m_s * std::max(0.0, since_s);
 }
 
-// Nothing is seen: the method goes on by what it remembers.
+// Without observations the method extrapolates.
 void MarkNotTracked(recon::TrackedPosture& observed) {
   observed.state.fill(TrackingState::kNotTracked);
   observed.confidence.fill(0.0);
 }
 
-// What the method did not believe holds no joint.
+// Observations that the method rejected constrain no joint.
 void ApplyGrossFailure(SkeletonWork& work) {
   const recon::GrossFailure failure = work.reconstructed.failure;
   if (failure == recon::GrossFailure::kSidesExchanged) {
@@ -192,7 +186,7 @@ void ApplyGrossFailure(SkeletonWork& work) {
   }
 }
 
-// As the frame says them: by the fitted body and by the network.
+// The bone lengths of this frame: mean of the fitted body and the network.
 std::optional<recon::BoneLengths> JudgeBones(const Body& body, double fitted_share) {
   if (!body.fit) return body.refined_bones_m;
   recon::BoneLengths bones_m = recon::MeasureBoneLengths(body.fit->joints_m);
@@ -203,7 +197,7 @@ std::optional<recon::BoneLengths> JudgeBones(const Body& body, double fitted_sha
   return bones_m;
 }
 
-// Joints about which no surface is where the fitted body has it.
+// Lowers the trust in joints without surface where the fitted body has it.
 void DoubtByResidual(const SkeletonWork& work, recon::JointArray<double>& trust) {
   const auto& options = work.options.fit;
   if (!work.body.fit || !options || !(options->doubt_residual_m > 0.0)) return;
@@ -254,9 +248,9 @@ void AverageStationary(SkeletonWork& work) {
   const recon::MethodInfo& method = recon::RequireMethod(work.options.reconstructor.method);
   const HoldOptions& hold = work.options.hold;
   const depth::Camera& camera = work.frame.camera;
-  work.seen = WithoutContradicted(work.body, camera, hold.elsewhere_m);
+  work.seen = InferContradicted(work.body, camera, hold.elsewhere_m);
   recon::TrackedPosture observed =
-      Observed(work.body, method.refined, camera, hold.fitted_confidence);
+      SelectObservation(work.body, method.refined, camera, hold.fitted_confidence);
   DoubtByResidual(work, observed.confidence);
   Person& person = work.person;
   work.believed = !JumpsAtTheBorder(work.body, observed, work.frame.time_s, hold, person);
@@ -286,20 +280,21 @@ void Reconstruct(SkeletonWork& work) {
 void SmoothPosture(SkeletonWork& work) {
   const auto& reliability = work.reconstructed.reliability;
   const recon::Posture held =
-      HeldToImage(work.posture, work.observed, reliability, work.options.hold);
-  recon::Posture smoothed =
-      Smooth(OutOfFreeSpace(held, work.observed, work.frame, work.options.hold, work.person),
-             work.frame.time_s, work.options.smoothing, work.person.smoothing);
+      HoldToImage(work.posture, work.observed, reliability, work.options.hold);
+  recon::Posture smoothed = Smooth(
+      MoveUnseenOutOfFreeSpace(held, work.observed, work.frame, work.options.hold, work.person),
+      work.frame.time_s, work.options.smoothing, work.person.smoothing);
   const SkeletonOptions& options = work.options;
   const recon::MethodInfo& method = recon::RequireMethod(options.reconstructor.method);
-  if (method.refined) smoothed = WithSlowGuesses(smoothed, work);
+  if (method.refined) smoothed = LimitUnseenSpeed(smoothed, work);
   if (options.physics || options.scene || method.keeps_bones) {
-    smoothed = WithBonesOf(work.posture, smoothed, work.observed, reliability, options.hold);
+    smoothed = RestoreBoneLengths(work.posture, smoothed, work.observed, reliability, options.hold);
   }
   work.posture = smoothed;
 }
 
-// After what holds joints to the image, so that floor, limbs and bones hold in what leaves.
+// After the joints are held to the image, so that the result obeys floor, joint limits and bone
+// lengths.
 void Simulate(SkeletonWork& work) {
   if (!work.options.physics) return;
   auto& mechanics = work.person.mechanics;
@@ -320,7 +315,7 @@ void Finish(SkeletonWork& work) {
   }
   InferElsewhere(work.posture, work.frame.camera, work.options.hold.elsewhere_m, told);
   work.body.joints =
-      Estimates(work.posture, work.orientations, told, work.reconstructed.reliability);
+      MakeJointEstimates(work.posture, work.orientations, told, work.reconstructed.reliability);
   work.person.shown = work.posture;
   work.person.shown_s = work.frame.time_s;
 }

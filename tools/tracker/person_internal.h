@@ -18,61 +18,63 @@
 
 namespace ossa::tracker {
 
-/// How far the skeleton may be from what is seen. Weights, confidences and reliabilities in [0, 1],
-/// lengths and times > 0. Constants: by hand where nothing else is said.
+/// Tolerances between the skeleton and the observed joints. Weights, confidences and reliabilities
+/// in [0, 1], lengths and times > 0. Constants: by hand where nothing else is said.
 struct HoldOptions {
-  // Tracked joints keep within so much of the image, and so much more when their reliability is 0.
+  // Largest distance of a tracked joint from its observation; unreliable_m is added at reliability
+  // 0.
   double tracked_m = 0.02, unreliable_m = 0.04;
-  // Inferred ones are off by 3 to 12 cm where the forest trusts them by 0.9 to 0 (measured in
-  // rendered rooms), and may move by twice that.
+  // The same for inferred joints, whose error is 3 to 12 cm for the forest's confidence 0.9 to 0
+  // (measured in rendered rooms): twice that.
   double inferred_m = 0.06, unsure_m = 0.18;
-  double free_space_s = 0.05;  // time constant of the way out of free space, against flicker
-  // A joint that is not tracked is a guess, which moves no faster against its parent: slower than
-  // an arm that gestures, so that a guess that turns from one way to another does not leap. On real
-  // video a sixth of the leaps is left, and rendered people are as near
-  // (docs/benchmarks/tracking.md).
+  double free_space_s =
+      0.05;  // time constant of moving occluded joints out of free space, against flicker
+  // Largest speed of a joint that is not tracked, relative to its parent: slower than a gesturing
+  // arm, so that an estimate that changes does not jump. On real video a sixth of the jumps is
+  // left, and rendered people are as accurate (docs/benchmarks/tracking.md).
   double guess_m_s = 2.0;
-  // What was seen, but by a later stage is so far away, was something else: of two to three tenths
-  // of a metre real depth tells no difference.
+  // An observation that a later stage moves by more than this was another object: between two and
+  // three tenths of a metre real depth shows no difference.
   double elsewhere_m = 0.3;
-  // Weights with which bones get their lengths again: of joints that are not seen, and the least of
-  // those that are.
+  // Weights when bone lengths are restored: of unseen joints, and the least of seen ones.
   double unseen = 0.1, least_seen = 0.2;
-  double fitted_confidence = 0.3;  // of joints that only the fitted body knows: of a poor guess
-  /// Share of the fitted body's bones in what a frame says of a person's; the rest is what the
-  /// network for bones judges. On rendered people the mean of both is nearer than either.
+  double fitted_confidence = 0.3;  // of joints that only the fitted body has: as of a poor proposal
+  /// Weight of the fitted body in a frame's bone lengths; the rest is the network's. On rendered
+  /// people the mean is more accurate than either.
   double fitted_bones = 0.7;
-  double recent_s = 0.25;  // what was seen longer ago says nothing about now: a frame at 5 a second
-  // Whose body the image's border cuts off so that fewer joints are seen than `mostly_seen` is not
-  // believed to be elsewhere all of a sudden (median of the joints told), for so long.
+  double recent_s = 0.25;  // older observations are not used: one frame at 5 Hz
+  // A body cut off by the image border, with fewer tracked joints than mostly_seen, must not jump:
+  // if the median displacement of its joints exceeds jump_m + fastest_m_s * dt, the observation is
+  // ignored, for at most disbelieved_s.
   size_t mostly_seen = 12;
   double jump_m = 0.05, fastest_m_s = 3.0;  // anthropometry: a trunk's speed, running
   double disbelieved_s = 1.0;
 };
 
-/// Whether what was seen `since_s` ago still says something about now. Of another recording, whose
-/// times were later, it does not.
+/// Whether an observation `since_s` ago is still usable. One of another recording, with later
+/// times, is not.
 bool IsRecent(double since_s, const HoldOptions& options);
 
-/// What the tracker remembers of one person.
+/// The state of one person between frames.
 struct Person {
   int id = 0;
   double seen_s = 0.0;
   double before_s = -1e9;  // time of `before`
   recon::BoneLengths lengths_m = AverageBoneLengths();
-  // By the estimates of the cascade until now.
+  // From the estimates of the refinement cascade.
   recon::BoneLengthEstimator bones{recon::BoneLengthOptions::ForNetworkEstimates()};
-  std::optional<recon::TrackedPosture> before;  // of the last frame it was tracked in
-  std::optional<recon::Posture> shown;          // what left in the last frame, at
+  std::optional<recon::TrackedPosture> before;  // of the last tracked frame
+  std::optional<recon::Posture> shown;          // the skeleton returned in the last frame, at ...
   double shown_s = -1e9;
-  double believed_s = -1e9;             // time of the last frame that was not disbelieved,
-  size_t believed_joints = 0;           // ... and how many were tracked in it
-  recon::StationaryPosture stationary;  // averages what stands still
+  double believed_s = -1e9;             // time of the last accepted observation,
+  size_t believed_joints = 0;           // ... and its number of tracked joints
+  recon::StationaryPosture stationary;  // averages stationary joints
   std::unique_ptr<recon::SurfaceFitter> fitter;
-  recon::PersonShape shape;  // by surface fits until now
+  recon::PersonShape shape;  // mean of the surface fits
   std::unique_ptr<recon::Reconstructor> reconstructor;
   std::unique_ptr<Mechanics> mechanics;
-  recon::JointArray<Eigen::Vector3d> occlusion_offset_m = NoMoves();  // out of free space
+  recon::JointArray<Eigen::Vector3d> occlusion_offset_m =
+      NoMoves();  // displacement out of free space
   SmoothingState smoothing;
 
   static recon::JointArray<Eigen::Vector3d> NoMoves() {
@@ -82,24 +84,24 @@ struct Person {
   }
 };
 
-/// Forgets who was out of view for more than `forget_s`, and of those not in view (`in_view`: ids)
-/// who was seen later than now: time went back, this is another recording, and whoever has that id
-/// in it may be anybody.
+/// Deletes people out of view for more than `forget_s`, and people not in view (`in_view`: ids) who
+/// were last seen later than now: time went back, so in this recording the id may be another
+/// person's.
 void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
                 std::map<int, Person>& people);
 
-/// What the stages from a detection to the skeleton read, the same for every person and frame.
+/// What the stages from detection to skeleton read, the same for all people and frames.
 struct SkeletonOptions {
-  const forest::ForestModel* forest = nullptr;       // of choosing among proposals,
-  people::JointTargets targets{};                    // ... and what it calls joints
+  const forest::ForestModel* forest = nullptr;       // for the choice among proposals
+  people::JointTargets targets{};                    // its targets for the joints
   const recon::JointRefiner* refinement = nullptr;   // null: none
   const recon::PoseNetwork* pose_network = nullptr;  // null: none
   const recon::BodySurface* surface = nullptr;       // of `fit`
   std::optional<recon::SurfaceFitOptions> fit;       // nothing: no fit
   TrackingMode mode = TrackingMode::kStanding;
-  bool from_above = false;  // the camera hangs under the ceiling
+  bool from_above = false;  // the camera is under the ceiling
   bool physics = false;
-  bool scene = false;  // people go on into one
+  bool scene = false;  // people are then simulated in a scene
   MechanicsBuild mechanics;
   SmoothingOptions smoothing;
   HoldOptions hold;
@@ -107,7 +109,7 @@ struct SkeletonOptions {
   std::map<int, recon::BoneLengths> bones_m;  // known ones, by body id
 };
 
-/// The person's own method, which has the bones where they are known.
+/// A new instance of the method for one person, with their bone lengths where these are known.
 std::unique_ptr<recon::Reconstructor> MethodFor(int id, const SkeletonOptions& options);
 
 }  // namespace ossa::tracker

@@ -20,8 +20,8 @@ using recon::TrackingState;
 constexpr int kPanelWidth = 480, kPanelHeight = 960;  // at most
 
 cv::Mat DepthPanel(const depth::DepthFrame& frame) {
-  std::vector<uint16_t> room, sorted;
-  for (const uint16_t mm : depth::PackedDepth(frame.view(), room)) {
+  std::vector<uint16_t> buffer, sorted;
+  for (const uint16_t mm : depth::PackedDepth(frame.view(), buffer)) {
     if (mm > 0) sorted.push_back(mm);
   }
   std::sort(sorted.begin(), sorted.end());

@@ -3,7 +3,7 @@
 namespace ossa::tracker {
 namespace {
 
-// The proposal that a joint was put on, or the likeliest one; null without any.
+// The proposal that a joint was placed at, or the most confident one; null if there are none.
 const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_first,
                                    const Eigen::Vector3d& place_m) {
   for (const forest::Proposal& proposal : best_first) {
@@ -13,12 +13,6 @@ const forest::Proposal* ProposalAt(const std::vector<forest::Proposal>& best_fir
 }
 
 }  // namespace
-
-std::vector<uint8_t> MaskOf(const people::Candidate& candidate, const depth::DepthFrame& frame) {
-  std::vector<uint8_t> is_person(frame.pixel_count(), 0);
-  for (const int32_t pixel : candidate.pixels) is_person[static_cast<size_t>(pixel)] = 1;
-  return is_person;
-}
 
 std::optional<recon::RefinedPerson> RefineJoints(std::span<const uint8_t> is_person,
                                                  SkeletonWork& work) {

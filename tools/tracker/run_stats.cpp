@@ -17,7 +17,7 @@ double ThreeDecimals(double value) { return std::round(1000 * value) / 1000; }
 }  // namespace
 
 void TimeHistogram::Add(double ms) {
-  // Bin 0 is for less than the shortest (a stage that did not run), the last for all beyond.
+  // Bin 0 holds durations below the shortest (stages that did not run), the last all longer ones.
   const double bin = 1 + std::floor(std::log(std::max(ms, 0.0) / kShortest_ms) / kBinLog);
   const double last = static_cast<double>(bins_.size()) - 1;
   ++bins_[static_cast<size_t>(std::clamp(bin, 0.0, last))];

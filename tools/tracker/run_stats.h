@@ -7,14 +7,14 @@
 
 namespace ossa::tracker {
 
-/// Durations counted in bins of 1 % from a microsecond to some minutes: quantiles to half a per
-/// cent in constant memory, however long a run lasts.
+/// A histogram of durations in bins of 1 %, from a microsecond to some minutes: quantiles to half a
+/// per cent in constant memory.
 class TimeHistogram {
  public:
   void Add(double ms);
   int64_t count() const { return count_; }
   double sum_ms() const { return sum_ms_; }
-  /// The duration that a share (0 to 1) of those added do not exceed, ms; 0 without any.
+  /// The duration that a share (0 to 1) of the values does not exceed, ms; 0 if empty.
   double Quantile(double share) const;
 
  private:
@@ -23,8 +23,8 @@ class TimeHistogram {
   double sum_ms_ = 0;
 };
 
-/// What `ossa track --json-stats` says (docs/architecture.md, "Reports"): medians of the stages'
-/// milliseconds, median and 99th percentile of the total, frames a second of processing.
+/// The report of `ossa track --json-stats` (docs/architecture.md, "Reports"): median milliseconds
+/// of the stages, median and 99th percentile of the total, processed frames per second.
 class RunStats {
  public:
   void Add(const StageTimes& ms);

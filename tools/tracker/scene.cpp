@@ -15,7 +15,7 @@ namespace {
 using recon::kJointCount;
 
 constexpr double kFrame_s = 1.0 / 30.0;  // 30 Hz, a Kinect SDK's rate
-constexpr double kLongestStep_s = 0.25;  // by hand: after a longer gap people stand elsewhere
+constexpr double kLongestStep_s = 0.25;  // by hand: after a longer gap people are elsewhere
 
 [[noreturn]] void Refuse(const std::string& what, double found, const std::string& range) {
   throw std::invalid_argument(what + " = " + std::to_string(found) + ", must be " + range);
@@ -126,7 +126,7 @@ void Scene::Impl::Play(double time_s, const std::optional<Eigen::Vector4d>& seen
   world.Step(dt_s);
   WatchHands(dt_s);
   ApplyRules(dt_s);
-  TellObjects();
+  UpdateObjectStates();
 }
 
 Scene::Scene(const SceneOptions& options) {
@@ -163,16 +163,7 @@ void Scene::Play(recon::SkeletonFrame& frame) {
     const auto character = CharacterOf(body.id);
     if (!character) continue;
     const physics::CharacterState state = impl_->world.StateOf(*character);
-    for (size_t j = 0; j < kJointCount; ++j) {
-      auto& joint = body.joints[j];
-      if (!joint) {
-        joint.emplace();
-        joint->state = recon::TrackingState::kInferred;
-        joint->reliability = 0.0;
-      }
-      joint->position_m = state.posture.position_m[j];
-      joint->orientation = state.orientation[j];
-    }
+    SetJoints(state.posture, state.orientation, body);
   }
   frame.objects = ToRecords(impl_->objects);
 }

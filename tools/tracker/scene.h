@@ -17,118 +17,122 @@ struct BodyFrame;
 
 // Constants: chosen by hand, on tracked people in rendered scenes, where nothing else is said.
 
-/// A thing of a scene, and where it is put.
+/// An object of a scene and its initial place.
 struct SceneObject {
-  /// What its place is told from; metres, y up along the floor's normal.
+  /// The frame of its place; metres, y up along the floor's normal.
   enum class Origin {
-    kFloor,   // the floor under the camera: x to the camera's left, z the way it looks
-    kPerson,  // the floor under somebody's hips: x to their left, z the way they face
+    kFloor,   // the floor below the camera: x to the camera's left, z along its viewing direction
+    kPerson,  // the floor below a person's hips: x to their left, z to their front
   };
   std::string name;
-  physics::ObjectOptions body;  // place, turn and velocities from `origin`
+  physics::ObjectOptions body;  // position, orientation and velocities relative to `origin`
   Origin origin = Origin::kFloor;
-  int person = 1;        // kPerson: the how-manieth that came into the picture
-  double after_s = 0.0;  // it appears so long after the floor, or the person, was there
+  int person = 1;        // kPerson: the number of the person in order of appearance, from 1
+  double after_s = 0.0;  // delay after the floor, or the person, was first seen
   double again_s =
-      0.0;  // and is put there again each so many seconds while nobody holds it; 0: not
+      0.0;  // period after which it is placed there again while nobody holds it; 0: never
 };
 
-/// A hand that is at a thing takes hold of it (Shum & Ho 2012, sec. 8.1; a virtual joint, 6.1).
+/// A hand at an object grabs it (Shum & Ho 2012, sec. 8.1; a virtual joint, 6.1).
 struct GrabRule {
-  std::vector<std::string> objects;  // names; empty: all that move
+  std::vector<std::string> objects;  // names; empty: all dynamic objects
   std::vector<recon::Joint> joints = {recon::Joint::kHandLeft, recon::Joint::kHandRight};
-  double near_m = 0.12;        // from the joint to the surface
-  double slower_m_s = 1.0;     // hand against thing; who catches is fast
-  int hands = 1;               // so many must be at it to hold it, else nobody does
-  int people = 1;              // ... of so many people: lifted together
-  double strength_n = 1000.0;  // a hold breaks beyond
-  /// Of several hands that hold a thing each lets it turn beyond this torque: two palms carry a box
-  /// between them, they do not wring it. A hand that holds it alone holds it fast.
-  // By hand: 2 kg, 2.5 cm off the line between the hands
+  double near_m = 0.12;  // from the joint to the surface
+  double slower_m_s =
+      1.0;  // largest speed of the hand relative to the object; high, because catching is fast
+  int hands = 1;               // number of hands required to hold it
+  int people = 1;              // ... and of people, to lift it together
+  double strength_n = 1000.0;  // force at which the hold breaks
+  /// Torque beyond which an object turns in each of several hands that hold it: two palms carry a
+  /// box without twisting it. A single hand holds it rigidly.
   double shared_torque_nm = 0.5;
 };
 
-/// Who moves a hand away from what it holds lets go of it.
+/// A hand that moves away from the object it holds releases it.
 struct ReleaseRule {
   std::vector<std::string> objects;
-  double away_m = 0.15;  // the tracked joint, further from the surface than where it took hold
-  double for_s = 0.07;   // for so long
+  double away_m =
+      0.15;  // of the tracked joint from the surface, beyond the distance when it grabbed
+  double for_s = 0.07;  // for this time
 };
 
-/// Who swings a thing lets go of it when the hand slows down again: it flies on as the hand went at
-/// its fastest (sec. 8.3).
+/// A swung object is released when the hand slows down, with the largest velocity of the swing
+/// (sec. 8.3).
 struct ThrowRule {
   std::vector<std::string> objects;
-  double faster_m_s = 2.5;  // the tracked joint; slower swings are no throws
+  double faster_m_s = 2.5;  // of the tracked joint; slower swings are no throws
 };
 
-/// Before what flies at head or shoulders people lean aside, and raise their arms (sec. 8.2).
+/// People lean aside from objects flying at head or shoulders, and raise their arms (sec. 8.2).
 struct DodgeRule {
   bool lean = true, cover = true;
 };
 
-/// Things, and what people may do with them.
+/// Objects, and rules of interaction.
 struct SceneOptions {
   std::vector<SceneObject> objects;
   std::vector<GrabRule> grabs;
   std::vector<ReleaseRule> releases;
   std::vector<ThrowRule> throws;
   std::optional<DodgeRule> dodge;
-  /// a b c d in camera space, unit normal up. None: as it is seen; things wait for it.
+  /// a b c d in camera space, unit normal up. Without a value: the detected floor, and objects
+  /// appear once it is detected.
   std::optional<Eigen::Vector4d> floor;
   physics::WorldOptions world;
-  MechanicsBuild people;  // how their characters are built
+  MechanicsBuild people;  // how the characters are built
   void Check() const;     // throws std::invalid_argument with name, value and range
 };
 
-/// Reads a scene file (docs/scene.md). Throws InputError: file, line, expectation.
+/// Reads a scene file (docs/scene.md). Throws InputError with file, line, expectation.
 SceneOptions LoadScene(const std::filesystem::path& file);
 
-/// An object as it is at one moment. Camera space, metres.
+/// The state of an object at one time. Camera space, metres.
 struct SceneObjectState {
   std::string name;
-  physics::ObjectOptions body;  // what it is made of; its place is not read
+  physics::ObjectOptions body;  // its properties; the initial place in it is unused
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
   std::vector<int> held_by;  // ids of bodies, ascending
 };
 
-/// As skeleton files hold them.
+/// As stored in skeleton files.
 std::vector<recon::ObjectRecord> ToRecords(const std::vector<SceneObjectState>& objects);
 
-/// What happened to an object.
+/// An event of an object.
 struct SceneEvent {
   enum class Kind { kAppeared, kGrabbed, kReleased, kThrown, kTorn } kind;
   std::string object;
-  int body = 0;  // who did it; 0: nobody
+  int body = 0;  // the person; 0: none
   recon::Joint joint = recon::Joint::kHipCenter;
 };
 
-/// All people of a picture in one mechanical world with the things of a scene, moment by moment.
-/// People come and go; any size; joints may be missing. Who is out of the picture for half a second
-/// is out of the world, and what they hold falls. A world that time runs back in begins anew.
+/// All people of an image in one mechanical world with the objects of a scene, simulated frame by
+/// frame. Any number and size of people; joints may be missing. A person out of view for half a
+/// second is removed, and what they hold falls. When time runs backwards the world restarts.
 class Scene {
  public:
-  /// Throws std::invalid_argument for options that cannot be.
+  /// Throws std::invalid_argument for invalid options.
   explicit Scene(const SceneOptions& options);
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
-  /// Moves the world on to the frame's time, people as they are seen; puts their joints where the
-  /// world lets them be, and tells its things. Joints that were absent come out inferred.
+  /// Simulates up to the frame's time, with characters that follow its people; replaces their
+  /// joints by those of the characters and sets its objects. Joints that were absent become
+  /// inferred.
   void Play(BodyFrame& frame);
   void Play(recon::SkeletonFrame& frame);
-  /// Everybody leaves, nothing is there.
+  /// Removes all people and objects.
   void Reset();
 
   const std::vector<SceneObjectState>& objects() const;
-  const std::vector<SceneEvent>& events() const;  // of the last moment
-  bool has_floor() const;                         // without one no thing has appeared
-  /// The world, to look into or to do more with: its frame is camera space.
+  const std::vector<SceneEvent>& events() const;  // of the last frame
+  bool has_floor() const;                         // without one no object has appeared
+  /// The simulated world, for inspection and extension, in camera space.
   physics::World& world();
-  /// The number of a person's character, of a thing's object; none where it is not there.
+  /// The index of a person's character, and of an object, in the world; nothing if it does not
+  /// exist.
   std::optional<int> CharacterOf(int body) const;
   std::optional<int> ObjectNamed(const std::string& name) const;
 

@@ -8,7 +8,7 @@
 
 namespace ossa::tracker {
 
-/// A person as they are seen at one moment. Joints that are not known are not finite.
+/// The observation of a person in one frame. Unknown joints are not finite.
 struct ScenePerson {
   int id = 0;
   recon::Posture seen;
@@ -16,49 +16,49 @@ struct ScenePerson {
   std::optional<recon::JointOrientations> orientation{};
 };
 
-/// A hand, or another joint that takes hold, from moment to moment.
+/// The state of a hand, or another joint that grabs, between frames.
 struct HandMemory {
   struct Place {
     double time_s;
     Eigen::Vector3d at_m;
   };
-  std::optional<Eigen::Vector3d> made_m;  // of the character at the last moment
+  std::optional<Eigen::Vector3d> made_m;  // of the character in the last frame
   Eigen::Vector3d made_velocity_m_s = Eigen::Vector3d::Zero();
-  std::vector<Place> seen;                                      // as tracked, the latest last
-  Eigen::Vector3d seen_velocity_m_s = Eigen::Vector3d::Zero();  // of the last step alone
-  Eigen::Vector3d fastest_m_s = Eigen::Vector3d::Zero();        // of the present swing, as seen
-  double held_at_m = 0.0;      // from the surface when it took hold, as seen
-  double away_s = 0.0;         // for how long it has been further away
-  GrabRule taken_by{};         // the rule by which it took hold
-  bool shares = false;         // others hold it, too: it may turn in this hand
-  double rest_until_s = -1e9;  // takes nothing before
+  std::vector<Place> seen;                                      // as tracked, latest last
+  Eigen::Vector3d seen_velocity_m_s = Eigen::Vector3d::Zero();  // of the last frame only
+  Eigen::Vector3d fastest_m_s = Eigen::Vector3d::Zero();        // of the current swing, as tracked
+  double held_at_m = 0.0;      // as tracked, from the surface when it grabbed
+  double away_s = 0.0;         // time beyond the release distance
+  GrabRule taken_by{};         // the rule by which it grabbed
+  bool shares = false;         // other hands hold the object, too, so that it may turn in this one
+  double rest_until_s = -1e9;  // grabs nothing before
 
   void See(double time_s, const Eigen::Vector3d& at_m);
-  /// Somebody was put elsewhere: what it holds it still holds, as it took it.
+  /// The person was moved to another place; holds are kept.
   void ForgetMotion();
-  /// Of the straight line through the last places: an odd one says little.
+  /// The slope of a line fitted through the last positions, robust against a single outlier.
   Eigen::Vector3d SteadyVelocity_m_s() const;
 };
 
-/// A person in the world.
+/// A person with their character.
 struct SceneActor {
   int character = -1;
-  int place = 0;  // the how-manieth that came, from 1
+  int place = 0;  // number in order of appearance, from 1
   CharacterBones bones;
   double came_s = 0.0, seen_s = 0.0;
   int far_frames = 0;
-  recon::Posture seen;  // at this moment; what is not known is where the character has it
+  recon::Posture seen;  // in this frame; unknown joints are the character's
   std::map<recon::Joint, HandMemory> hands;
 };
 
-/// A joint of somebody that could take hold, and by which rule it would.
+/// A joint that may grab an object, and the rule that applies.
 struct SceneHand {
   SceneActor* actor;
   recon::Joint joint;
   const GrabRule* rule;
 };
 
-/// An object of the options, and the world's, while it is there.
+/// The index of a placed object in the world.
 struct ScenePlaced {
   int object = -1;
   double put_s = 0.0;
@@ -81,10 +81,10 @@ struct Scene::Impl {
   void FollowFloor(const std::optional<Eigen::Vector4d>& seen, double dt_s);
   std::optional<Eigen::Isometry3d> OriginOf(const SceneObject& object) const;
   void PutObjects();
-  /// Whether somebody is where the object is.
+  /// Whether the object intersects a person.
   bool IsInSomebody(int object) const;
   void Put(const SceneObject& object, ScenePlaced& placed, const Eigen::Isometry3d& origin);
-  void TellObjects();
+  void UpdateObjectStates();
   // scene_rules.cpp
   void ApplyRules(double dt_s);
   void Throw(const ThrowRule& rule);
@@ -92,30 +92,30 @@ struct Scene::Impl {
   void Grab(const std::string& name, int object);
   void Take(const std::string& name, int object, const SceneHand& taking);
   void Hold(SceneActor& actor, recon::Joint joint, int object);
-  /// Hands that hold it with others let it turn, who holds it alone does not.
+  /// Lets an object held by several hands turn in them, and fixes it in a single hand.
   void ShareHolds(int object);
-  /// Free hands that are at an object as the rule wants it.
+  /// Free hands at an object that satisfy the rule's distance and speed.
   std::vector<SceneHand> HandsAt(const GrabRule& rule, int object);
   void LetGo(const std::string& name, const physics::Holder& holder, SceneEvent::Kind kind);
   void LetAllGo(const std::string& name, SceneEvent::Kind kind);
-  /// Objects that a rule names and that are there, by name.
+  /// Existing dynamic objects that a rule names, by name.
   std::vector<std::pair<std::string, int>> Named(const std::vector<std::string>& names) const;
   bool HoldsSomething(int character, recon::Joint joint) const;
-  /// The person whose character that is, by id.
+  /// The person with this character, by id.
   std::pair<const int, SceneActor>* Owner(int character);
 
   SceneOptions options;
   physics::World world;
   std::map<int, SceneActor> actors;  // by body id
   std::map<std::string, ScenePlaced> placed;
-  std::set<recon::Joint> grabbing;  // joints that take hold by any rule
+  std::set<recon::Joint> grabbing;  // joints that grab by any rule
   std::optional<Eigen::Vector4d> floor;
   double floor_since_s = 0.0;
   recon::FrameSteps steps;
-  double now_s = 0.0;    // by the steps: never stands still
-  double stamp_s = 0.0;  // of the latest frame
+  double now_s = 0.0;    // sum of the steps: strictly increasing
+  double stamp_s = 0.0;  // timestamp of the latest frame
   bool began = false;
-  int came = 0;  // people until now
+  int came = 0;  // number of people so far
   std::vector<SceneObjectState> objects;
   std::vector<SceneEvent> events;
 };

@@ -1,4 +1,4 @@
-// Objects of a scene: floor, places, what is told of them.
+// Objects of a scene: floor, placement, reported states.
 #include <algorithm>
 #include <cmath>
 
@@ -15,10 +15,11 @@ using recon::Joint;
 
 // Constants: chosen by hand.
 
-constexpr double kFirstLooks_s = 0.3;   // a first look at floor or person may be off
-constexpr double kFloorMemory_s = 1.0;  // a floor that is seen anew each frame trembles
+constexpr double kSettling_s = 0.3;     // the first detections of floor or person may be off
+constexpr double kFloorMemory_s = 1.0;  // time constant: the detected floor jitters
 
-/// Right-handed: up is y, `ahead` made level is z, at a point of the floor.
+/// A right-handed frame: y up, z along the horizontal part of `ahead`, origin on the floor below
+/// `above`.
 Isometry3d LevelFrame(const Vector4d& floor, const Vector3d& above, const Vector3d& ahead) {
   const Vector3d up = floor.head<3>();
   Vector3d z = ahead - ahead.dot(up) * up;
@@ -32,7 +33,7 @@ Isometry3d LevelFrame(const Vector4d& floor, const Vector3d& above, const Vector
 
 }  // namespace
 
-/// The floor of the options; else the first one seen, which follows slowly what is seen later.
+/// Uses the floor of the options; else the first detected one, which is averaged with later ones.
 void Scene::Impl::FollowFloor(const std::optional<Vector4d>& seen, double dt_s) {
   const std::optional<Vector4d>& told = options.floor ? options.floor : seen;
   if (told && told->allFinite() && told->head<3>().norm() > 1e-6) {
@@ -45,9 +46,9 @@ void Scene::Impl::FollowFloor(const std::optional<Vector4d>& seen, double dt_s) 
   world.SetFloor(floor);
 }
 
-/// World from what the object's place is told from, where that is known well enough by now.
+/// World from the frame of an object's place; nothing until that is known for long enough.
 std::optional<Isometry3d> Scene::Impl::OriginOf(const SceneObject& object) const {
-  const double wait_s = kFirstLooks_s + object.after_s;
+  const double wait_s = kSettling_s + object.after_s;
   if (!floor) return std::nullopt;
   if (object.origin == SceneObject::Origin::kFloor) {
     if (now_s - floor_since_s < wait_s) return std::nullopt;
@@ -77,7 +78,7 @@ void Scene::Impl::PutObjects() {
     if (!origin) continue;
     Put(object, placed[object.name], *origin);
     if (there == placed.end() && IsInSomebody(placed[object.name].object)) {
-      world.RemoveObject(placed[object.name].object);  // it waits
+      world.RemoveObject(placed[object.name].object);  // retried in the next frame
       placed.erase(object.name);
     } else if (there == placed.end()) {
       events.push_back({SceneEvent::Kind::kAppeared, object.name});
@@ -118,7 +119,7 @@ void Scene::Impl::Put(const SceneObject& object, ScenePlaced& at, const Isometry
   at.put_s = now_s;
 }
 
-void Scene::Impl::TellObjects() {
+void Scene::Impl::UpdateObjectStates() {
   objects.clear();
   for (const SceneObject& object : options.objects) {
     const auto there = placed.find(object.name);

@@ -1,4 +1,4 @@
-// People of a scene: who is in the world, where they are wanted, what their hands do.
+// People of a scene: their characters, targets and hands.
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +14,10 @@ using recon::Posture;
 
 // Constants: chosen by hand, where nothing else is said.
 
-constexpr double kForget_s = 0.5;     // who is out of the picture for longer is gone
-constexpr double kElsewhere_m = 1.0;  // joints' mean; physics::CharacterFilterOptions::teleport_m
-constexpr int kElsewhereFrames = 3;   // and its teleport_frames
-constexpr double kFollowing_rad_s = 60.0;  // of Simulate in person.cpp: targets are smooth
+constexpr double kForget_s = 0.5;  // longest time out of view
+constexpr double kElsewhere_m =
+    1.0;  // mean of the joints; physics::CharacterFilterOptions::teleport_m
+constexpr int kElsewhereFrames = 3;  // and its teleport_frames
 
 physics::CharacterOptions BuildOf(const SceneOptions& scene) {
   physics::CharacterOptions options;
@@ -33,8 +33,7 @@ physics::CharacterOptions BuildOf(const SceneOptions& scene) {
   return options;
 }
 
-/// What is not known stands as the rest of the body would have it stand. Nothing where neither the
-/// hips nor what is above them are known.
+/// Completes unknown joints as if the person stood upright. Nothing if no joint is known.
 std::optional<Posture> Completed(const Posture& seen, const recon::BoneLengths& lengths_m,
                                  const Vector3d& up) {
   Posture whole = seen;
@@ -43,7 +42,7 @@ std::optional<Posture> Completed(const Posture& seen, const recon::BoneLengths& 
     const auto first = std::find_if(seen.position_m.begin(), seen.position_m.end(),
                                     [](const Vector3d& p) { return p.allFinite(); });
     if (first == seen.position_m.end()) return std::nullopt;
-    double height_m = 0.0;  // of that joint above the hips, standing
+    double height_m = 0.0;  // height of that joint above the hips, standing
     for (size_t j = static_cast<size_t>(first - seen.position_m.begin()); j != 0;
          j = recon::ParentOf(j)) {
       height_m += j < recon::Index(Joint::kHipLeft) ? lengths_m[j] : -lengths_m[j];
@@ -60,7 +59,7 @@ std::optional<Posture> Completed(const Posture& seen, const recon::BoneLengths& 
 
 }  // namespace
 
-/// The first time, or with other bones, holding what they held.
+/// Creates the character, or replaces it after a change of bone lengths; holds are kept.
 void Scene::Impl::Make(SceneActor& actor, const Posture& start) {
   struct Held {
     int object;
@@ -81,7 +80,7 @@ void Scene::Impl::Make(SceneActor& actor, const Posture& start) {
   }
 }
 
-/// Whether somebody is not where their character is, and it is not one odd frame.
+/// Whether a person has been far from their character for several frames.
 bool Scene::Impl::IsElsewhere(SceneActor& actor, const Posture& seen) const {
   const bool far =
       recon::MeanDistance_m(world.StateOf(actor.character).posture, seen) > kElsewhere_m;
@@ -149,7 +148,7 @@ void HandMemory::ForgetMotion() {
 }
 
 Vector3d HandMemory::SteadyVelocity_m_s() const {
-  constexpr size_t kFewest = 3;  // two tell nothing of an odd one
+  constexpr size_t kFewest = 3;  // with two an outlier would not show
   if (seen.size() < kFewest) return Vector3d::Zero();
   const auto count = static_cast<double>(seen.size());
   double middle_s = 0.0, spread_s2 = 0.0;

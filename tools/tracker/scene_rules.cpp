@@ -1,4 +1,4 @@
-// What people do with the objects of a scene: take, carry, let go, throw.
+// Interaction of people with objects: grab, carry, release, throw.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,8 +13,8 @@ using recon::Joint;
 
 // Constants: chosen by hand.
 
-constexpr double kRest_s = 0.7;        // who let go does not take it again at once
-constexpr double kSlowingDown = 0.85;  // share of a swing's fastest speed: it is over
+constexpr double kRest_s = 0.7;        // pause before the same hand grabs again
+constexpr double kSlowingDown = 0.85;  // share of a swing's largest speed below which it has ended
 
 bool IsNamed(const std::vector<std::string>& names, const std::string& name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
@@ -24,7 +24,7 @@ bool IsOf(const GrabRule& rule, Joint joint) {
   return std::find(rule.joints.begin(), rule.joints.end(), joint) != rule.joints.end();
 }
 
-/// Whether those who hold a thing and those who could suffice for the rule.
+/// Whether the hands that hold an object and those that may grab it satisfy the rule.
 bool IsEnough(const GrabRule& rule, const std::vector<physics::Holder>& holders,
               const std::vector<SceneHand>& able) {
   std::set<int> people;
@@ -95,8 +95,8 @@ void Scene::Impl::ApplyRules(double dt_s) {
   }
 }
 
-// The character's hand is behind the one that is seen, and swings what it holds further: what is
-// thrown flies as the hand that is seen went at its fastest.
+// Thrown objects get the largest tracked velocity of the hand, because the character's hand lags
+// behind and continues the swing.
 void Scene::Impl::Throw(const ThrowRule& rule) {
   for (const auto& [name, object] : Named(rule.objects)) {
     std::optional<Vector3d> thrown_m_s;
@@ -109,7 +109,7 @@ void Scene::Impl::Throw(const ThrowRule& rule) {
       const double fastest_m_s = hand.fastest_m_s.norm();
       if (hand.seen_velocity_m_s.norm() >= kSlowingDown * fastest_m_s) continue;
       if (fastest_m_s > rule.faster_m_s) thrown_m_s = hand.fastest_m_s;
-      hand.fastest_m_s = steady_m_s;  // of another swing
+      hand.fastest_m_s = steady_m_s;  // the next swing begins
     }
     if (!thrown_m_s) continue;
     LetAllGo(name, SceneEvent::Kind::kThrown);
@@ -156,7 +156,7 @@ std::vector<SceneHand> Scene::Impl::HandsAt(const GrabRule& rule, int object) {
   return able;
 }
 
-// Several rules may name one object: it is held as long as one of them is content.
+// Several rules may apply to one object: it is held as long as one of them is satisfied.
 void Scene::Impl::Grab(const std::string& name, int object) {
   const auto holders = world.HoldersOf(object);
   std::vector<SceneHand> taking;
@@ -170,7 +170,7 @@ void Scene::Impl::Grab(const std::string& name, int object) {
     taking.insert(taking.end(), able.begin(), able.end());
   }
   if (!is_ruled) return;
-  if (!is_held) LetAllGo(name, SceneEvent::Kind::kReleased);  // too few are left to hold it
+  if (!is_held) LetAllGo(name, SceneEvent::Kind::kReleased);  // too few hands are left
   for (const SceneHand& hand : taking) {
     if (!HoldsSomething(hand.actor->character, hand.joint)) Take(name, object, hand);
   }

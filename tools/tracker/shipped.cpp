@@ -14,7 +14,7 @@
 namespace ossa::tracker {
 namespace {
 
-// The library or program that this code is in: an installed one stands beside its share folder,
+// The library or program that contains this code: an installed one is beside its share folder,
 // wherever the application is.
 std::filesystem::path OwnBinary() {
   Dl_info info{};
@@ -23,7 +23,7 @@ std::filesystem::path OwnBinary() {
              : std::filesystem::path();
 }
 
-// Where shipped files may be, the first place first.
+// Folders of shipped files, in order of preference.
 std::vector<std::filesystem::path> Folders() {
   std::vector<std::filesystem::path> folders;
   if (const char* share = std::getenv("OSSA_SHARE"); share != nullptr && *share != '\0') {
@@ -33,7 +33,7 @@ std::vector<std::filesystem::path> Folders() {
   for (const auto& binary : {OwnBinary(), std::filesystem::path("/proc/self/exe")}) {
     const auto real = std::filesystem::canonical(binary, error);
     if (error) continue;
-    // The last is that of the Python package, which has everything in one folder.
+    // The last is for the Python package, which has everything in one folder.
     for (const char* data : {OSSA_DATA_FROM_LIB, OSSA_DATA_FROM_BIN, "share"}) {
       auto folder = (real.parent_path() / data / "ossa").lexically_normal();
       if (folders.empty() || folders.back() != folder) folders.push_back(std::move(folder));

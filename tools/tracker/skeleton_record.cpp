@@ -9,15 +9,15 @@
 namespace ossa::tracker {
 namespace {
 
-// Joints as they are seen, frame by frame.
-bool IsOfTheImage(PostureKind kind) {
+// Whether joints are single-frame observations.
+bool IsSingleFrame(PostureKind kind) {
   return kind == PostureKind::kRaw || kind == PostureKind::kRefined;
 }
 
 recon::Posture ToPosture(const Body& body, PostureKind kind) {
   if (kind == PostureKind::kFitted && body.fit) return body.fit->joints_m;
   if (kind == PostureKind::kRefined && body.refined) return *body.refined;
-  if (IsOfTheImage(kind)) return body.raw.posture;
+  if (IsSingleFrame(kind)) return body.raw.posture;
   return kind == PostureKind::kReconstructed ? body.reconstructed : ToPosture(body);
 }
 
@@ -28,7 +28,7 @@ recon::BodyRecord ToRecord(const Body& body, PostureKind kind) {
   const recon::Posture posture = ToPosture(body, kind);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     const bool absent =
-        IsOfTheImage(kind) && body.joints[j].state == recon::TrackingState::kNotTracked;
+        IsSingleFrame(kind) && body.joints[j].state == recon::TrackingState::kNotTracked;
     if (absent || !posture.position_m[j].allFinite()) continue;
     recon::JointRecord joint;
     joint.position_m = posture.position_m[j];

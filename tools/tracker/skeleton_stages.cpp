@@ -18,10 +18,10 @@ namespace {
 
 struct Stage {
   void (*run)(SkeletonWork&);
-  double StageTimes::*ms;  // where its time counts
+  double StageTimes::*ms;  // the timer it counts in
 };
 
-// docs/pipeline.md says what each does and what it is worth.
+// docs/pipeline.md describes the stages and their effect.
 constexpr std::array kStages = {
     Stage{ChooseRaw, &StageTimes::propose},
     Stage{Refine, &StageTimes::reconstruct},
@@ -34,7 +34,8 @@ constexpr std::array kStages = {
     Stage{Simulate, &StageTimes::physics},
     Stage{Finish, &StageTimes::reconstruct},
 };
-constexpr size_t kObserving = 4;  // by definition: the stages before those of CompleteSkeleton
+constexpr size_t kObservingStages =
+    4;  // by definition: the stages before those of CompleteSkeleton
 
 void RunStages(std::span<const Stage> stages, SkeletonWork& work, StageTimes& ms) {
   for (const Stage& stage : stages) {
@@ -51,8 +52,8 @@ void RefineByCascade(std::span<const uint8_t> is_person, SkeletonWork& work) {
   work.body.refined_bones_m = refined->bones_m;
 }
 
-// Joints that were not chosen stand nowhere: they are where `others_m` has them.
-recon::Posture WithWhatIsMissing(const recon::TrackedPosture& raw, const recon::Posture& others_m) {
+// Joints without a chosen proposal have no position of their own; takes that of `others_m`.
+recon::Posture FillMissing(const recon::TrackedPosture& raw, const recon::Posture& others_m) {
   recon::Posture whole_m = raw.posture;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     if (raw.state[j] != recon::TrackingState::kNotTracked) continue;
@@ -61,7 +62,7 @@ recon::Posture WithWhatIsMissing(const recon::TrackedPosture& raw, const recon::
   return whole_m;
 }
 
-// With what was read when the person was detected, or anew.
+// Uses the pose from detection, or runs the network now.
 void FuseWithNetwork(SkeletonWork& work) {
   std::optional<recon::NetworkPose> network = work.detection->pose;
   if (!network) {
@@ -70,7 +71,7 @@ void FuseWithNetwork(SkeletonWork& work) {
   }
   if (!network) return;
   Body& body = work.body;
-  if (!body.refined) body.refined = WithWhatIsMissing(body.raw, network->joints_m);
+  if (!body.refined) body.refined = FillMissing(body.raw, network->joints_m);
   body.refined = recon::FusePoses(*body.refined, body.raw.confidence, *network);
 }
 
@@ -85,7 +86,7 @@ void TrackSkeleton(SkeletonWork& work, StageTimes& ms) {
 }
 
 void CompleteSkeleton(SkeletonWork& work, StageTimes& ms) {
-  RunStages(std::span(kStages).subspan(kObserving), work, ms);
+  RunStages(std::span(kStages).subspan(kObservingStages), work, ms);
 }
 
 void ChooseRaw(SkeletonWork& work) {
@@ -105,7 +106,7 @@ void ChooseRaw(SkeletonWork& work) {
 void Refine(SkeletonWork& work) {
   const SkeletonOptions& options = work.options;
   if (options.refinement != nullptr) {
-    RefineByCascade(MaskOf(work.detection->candidate, work.frame), work);
+    RefineByCascade(people::MaskPixels(work.frame, work.detection->candidate.pixels), work);
   }
   if (options.pose_network != nullptr) FuseWithNetwork(work);
 }

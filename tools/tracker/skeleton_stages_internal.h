@@ -9,29 +9,28 @@
 
 namespace ossa::tracker {
 
-/// One person in one frame on the way to the skeleton: what the stages read, and what each leaves
-/// for those after it.
+/// One person in one frame: inputs and results of the skeleton stages.
 struct SkeletonWork {
   const SkeletonOptions& options;
   const depth::DepthFrame& frame;
   const std::optional<Eigen::Vector4d>& floor;
-  const people::Detection* detection;  // of the first three stages; CompleteSkeleton needs none
-  Person& person;                      // what was known before, and is from now on
-  Body& body;                          // raw, refined, fit, reconstructed, joints, as they are made
-  recon::TrackedPosture seen = {};     // raw, less what later stages contradict
-  recon::TrackedPosture observed = {};             // what the method starts from,
-  bool believed = true;                            // ... nothing, where it is not
-  recon::ReconstructedPosture reconstructed = {};  // what it made of that,
-  recon::Posture posture = {};                     // ... and the stages after it,
-  // ... how its bones are turned about themselves, where the method or the character knows.
+  const people::Detection* detection;  // for the first three stages; null in CompleteSkeleton
+  Person& person;                      // state from the frames before, updated
+  Body& body;                       // raw, refined, fit, reconstructed, joints, set by the stages
+  recon::TrackedPosture seen = {};  // raw, with joints that later stages contradict as inferred
+  recon::TrackedPosture observed = {};             // the input of the method,
+  bool believed = true;                            // ... without tracked joints if false
+  recon::ReconstructedPosture reconstructed = {};  // the result of the method
+  recon::Posture posture = {};                     // the current posture after each stage
+  // Bone orientations, where the method or the character gives them.
   std::optional<recon::JointOrientations> orientations = {};
 };
 
-/// From a detection to the skeleton: all stages, in the order of docs/pipeline.md. Adds the time of
-/// each to `ms`.
+/// Runs all stages from detection to skeleton, in the order of docs/pipeline.md, and adds their
+/// times to `ms`.
 void TrackSkeleton(SkeletonWork& work, StageTimes& ms);
 
-/// The stages after body.raw, body.refined and body.fit are known.
+/// Runs the stages after body.raw, body.refined and body.fit are set.
 void CompleteSkeleton(SkeletonWork& work, StageTimes& ms);
 
 /// Chooses among the detection's proposals: body.raw.
@@ -40,21 +39,20 @@ void ChooseRaw(SkeletonWork& work);
 void Refine(SkeletonWork& work);
 /// Fits the body's surface where that is asked for: body.fit.
 void Fit(SkeletonWork& work);
-/// Leaves out joints that the tracking mode does not follow, and remembers the rest.
+/// Marks joints outside the tracking mode as not tracked, and updates bone lengths from the rest.
 void ApplyMode(SkeletonWork& work);
-/// Doubts what was seen and is said to be elsewhere, `seen`, and averages joints that stand still:
+/// Sets `seen`, in which contradicted joints are inferred, and averages stationary joints:
 /// `observed`.
 void AverageStationary(SkeletonWork& work);
 /// The method of reconstruction: body.reconstructed.
 void Reconstruct(SkeletonWork& work);
 /// Holds joints to the image, moves them out of free space, smooths, keeps bones: `posture`.
 void SmoothPosture(SkeletonWork& work);
-/// From the ceiling: legs that are not seen, of joints that were not refined, stand on the floor:
-/// `posture`.
+/// From the ceiling: places unseen, unrefined legs on the floor: `posture`.
 void StandOnFloor(SkeletonWork& work);
-/// The physical character, where it is on: `posture`.
+/// Simulates the character, where physics is on: `posture`.
 void Simulate(SkeletonWork& work);
-/// What leaves: body.joints.
+/// Sets the result, body.joints.
 void Finish(SkeletonWork& work);
 
 }  // namespace ossa::tracker

@@ -24,7 +24,7 @@ void SmoothingOptions::Check() const {
   Require(smoothing >= 0 && smoothing < 1, "smoothing", smoothing, "[0, 1)");
   Require(correction >= 0 && correction <= 1, "correction", correction, "[0, 1]");
   Require(prediction >= 0 && prediction < 100, "prediction", prediction, "[0, 100)");
-  // Within an endless jitter radius nothing moves, and endless times 0 is no cutoff.
+  // With an infinite jitter radius nothing would move, and infinity times 0 is no cutoff.
   const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
   Require(positive(jitter_radius_m), "jitter_radius_m", jitter_radius_m, "(0, inf)");
   Require(max_deviation_radius_m > 0, "max_deviation_radius_m", max_deviation_radius_m, "(0, inf]");

@@ -11,10 +11,10 @@ namespace ossa::tracker {
 
 // Constants: Kinect SDK 1.8, TransformSmoothParameters; One-Euro's after Casiez 2012, by hand.
 
-/// The filter that joints go through at the end.
+/// The filter of the final joints.
 enum class SmoothingKind { kNone, kHolt, kOneEuro };
 
-/// A filter of each joint: as the Kinect SDK's (Holt), or One-Euro.
+/// The filter of each joint: as the Kinect SDK's (Holt), or One-Euro.
 struct SmoothingOptions {
   SmoothingKind kind = SmoothingKind::kHolt;
   recon::HoltOptions holt;
@@ -25,19 +25,19 @@ struct SmoothingOptions {
 /// Published presets: none, default (0.5 0.5 0.5 0.05 0.04), smooth (0.5 0.1 0.5 0.1 0.1),
 /// verysmooth (0.7 0.3 1.0 1.0 1.0), one-euro. Throws InputError for another name.
 SmoothingOptions SmoothingPreset(std::string_view name);
-/// Their names.
+/// The names of the presets.
 const std::vector<std::string>& SmoothingPresets();
 
 /// State of one body's filters.
 struct SmoothingState {
   recon::JointArray<recon::HoltFilter> holt;
   recon::JointArray<recon::OneEuroFilter> one_euro;
-  SmoothingKind kind = SmoothingKind::kNone;  // what was smoothed by last
+  SmoothingKind kind = SmoothingKind::kNone;  // kind of the last frame
   recon::FrameSteps steps;
 };
 
-/// One step. Starts anew after a gap, when time runs backwards (recon::FrameSteps) and where
-/// another kind of filter smoothed the frame before.
+/// Filters one frame. Restarts after a gap, when time runs backwards (recon::FrameSteps) and when
+/// the kind of filter changed.
 recon::Posture Smooth(const recon::Posture& raw, double time_s, const SmoothingOptions& options,
                       SmoothingState& state);
 

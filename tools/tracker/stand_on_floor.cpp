@@ -1,5 +1,5 @@
-// From the ceiling a body hides its own legs. Whose are not seen, and were not refined, stands on
-// the floor.
+// From the ceiling a body occludes its own legs. Unseen legs that were not refined are placed
+// standing on the floor.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using recon::Joint;
 
-constexpr double kAnkle_m = 0.08;  // anthropometry: of a standing ankle over the floor
+constexpr double kAnkle_m = 0.08;  // anthropometry: height of a standing ankle above the floor
 
 struct Leg {
   Joint hip, knee, ankle, foot;
@@ -20,7 +20,7 @@ constexpr std::array kLegs = {
     Leg{Joint::kHipLeft, Joint::kKneeLeft, Joint::kAnkleLeft, Joint::kFootLeft},
     Leg{Joint::kHipRight, Joint::kKneeRight, Joint::kAnkleRight, Joint::kFootRight}};
 
-// Level, to where the body faces; zero where it does not say.
+// The horizontal direction that the body faces; zero if undefined.
 Vector3d EstimateFacing(const recon::Posture& posture, const Vector3d& up) {
   const Vector3d left = posture[Joint::kHipLeft] - posture[Joint::kHipRight] +
                         (posture[Joint::kShoulderLeft] - posture[Joint::kShoulderRight]);
@@ -28,8 +28,8 @@ Vector3d EstimateFacing(const recon::Posture& posture, const Vector3d& up) {
   return facing.norm() > 1e-3 ? Vector3d(facing.normalized()) : Vector3d::Zero();
 }
 
-// The ankle on the floor below the hip, as far as the leg reaches; the knee before the line between
-// them where the leg is longer.
+// Places the ankle on the floor below the hip, as far as the leg reaches, and the knee in front of
+// the line between them if the leg is longer.
 void Stand(const Leg& leg, const Vector3d& up, double height_m, const Vector3d& facing,
            recon::Posture& posture) {
   const Vector3d hip = posture[leg.hip];
@@ -63,7 +63,7 @@ void StandOnFloor(SkeletonWork& work) {
   for (const Leg& leg : kLegs) {
     if (is_seen(leg.knee) || is_seen(leg.ankle)) continue;
     Stand(leg, up, up.dot(work.posture[leg.hip]) + (*work.floor)[3], facing, work.posture);
-    work.orientations.reset();  // joints say how bones lie now
+    work.orientations.reset();  // recomputed from the joints
   }
 }
 

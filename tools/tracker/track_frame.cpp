@@ -1,4 +1,4 @@
-// One frame's way through the tracker: who is there, their skeletons, which way up, which mount.
+// Processing one frame: detection, skeletons, image rotation, camera mount.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace ossa::tracker {
 namespace {
 
 unsigned FindClippedEdges(const depth::DepthFrame& frame, const std::vector<int32_t>& pixels) {
-  // The sensor leaves a margin of a few pixels without readings at each border.
+  // Sensors leave a margin of a few pixels without readings at each border.
   const int margin = std::max(2, frame.camera.width / 64);
   unsigned edges = 0;
   for (const int32_t pixel : pixels) {
@@ -30,13 +30,13 @@ unsigned FindClippedEdges(const depth::DepthFrame& frame, const std::vector<int3
   return edges;
 }
 
-// How surely somebody is in a frame that nothing is known about.
+// The highest person score in a single frame, without state; 0 without people.
 double ScorePeople(const depth::DepthFrame& frame, const people::PersonClassifier& classifier,
                    const people::PeopleOptions& options) {
-  people::PeopleState nothing;
+  people::PeopleState empty_state;
   double best = 0.0;
   for (const people::Person& person :
-       people::DetectPeople(frame, classifier, nothing, options).people) {
+       people::DetectPeople(frame, classifier, empty_state, options).people) {
     best = std::max(best, person.detection.score);
   }
   return best;
@@ -53,7 +53,7 @@ recon::JointArray<std::vector<JointProposal>> CollectProposals(
   return proposals;
 }
 
-// All but the total.
+// All times except the total.
 StageTimes SumTimes(const people::PeopleInFrame& seen, const std::vector<StageTimes>& of_people) {
   StageTimes sum;
   sum.segment = seen.segment_ms;
@@ -85,9 +85,9 @@ void CheckFrame(const depth::DepthFrame& frame) {
   }
 }
 
-// Whether a frame that was tracked as a level camera's is one from the ceiling: it has the floor
-// and a head high over it, and the forest for ceilings is sure of a body. What the level one says
-// of such frames counts for nothing: of half of the real ones it is sure, too, and wrong.
+// Whether a frame that was tracked with the level models is from a camera under the ceiling: a
+// floor, a head high above it, and a confident person score of the ceiling forest. The level score
+// is ignored, because it is also high on half of the real ceiling frames.
 bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked) {
   if (options.mount != Mount::kAuto || models.ceiling_file.empty()) return false;
   if (!mount_finder.IsDue(tracked)) return false;
@@ -106,7 +106,7 @@ bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyF
 }
 
 void Tracker::Impl::FindUpright(const depth::DepthFrame& frame) {
-  const bool changed = upright.Look(frame, [this](const depth::DepthFrame& looked, int quarters) {
+  const bool changed = upright.Update(frame, [this](const depth::DepthFrame& looked, int quarters) {
     return ScorePeople(depth::Turned(looked, quarters), {model, targets}, people_options);
   });
   if (changed) ForgetAll();
@@ -117,7 +117,7 @@ void Tracker::Impl::ForgetAll() {
   people_state = {};
 }
 
-// What is known of a person without their joints.
+// A body without joints.
 Body Tracker::Impl::MakeBody(const depth::DepthFrame& frame, const people::Person& person) const {
   const people::Candidate& seen = person.detection.candidate;
   Body body;
@@ -131,8 +131,8 @@ Body Tracker::Impl::MakeBody(const depth::DepthFrame& frame, const people::Perso
   return body;
 }
 
-// Of somebody new: what is known already. The refinement cascade estimates the bones that the
-// method ends with.
+// Initialises a new person with known shape and bone lengths. The refinement cascade estimates the
+// bone lengths that the method uses.
 void Tracker::Impl::Introduce(int id, Person& person) const {
   person.id = id;
   const auto shape = options.shapes.find(id);
@@ -158,20 +158,20 @@ std::vector<Person*> Tracker::Impl::RememberPersons(const std::vector<Body>& bod
   return in_view;
 }
 
-// A second opinion on who was accepted at the first look: furniture may look like a person once,
-// but no body's surface explains it. `seen` and result.bodies are of the same order.
+// Verifies people who were accepted in a single frame: furniture may have a high score once, but no
+// body's surface explains it. `seen` and result.bodies are in the same order.
 void Tracker::Impl::WithdrawUnlikeBodies(const std::vector<people::Person>& seen,
                                          BodyFrame& result) {
   const people::InitiationOptions& initiation = people_options.initiation;
-  const auto is_doubtful = [&](const people::Person& person) {
+  const auto needs_check = [&](const people::Person& person) {
     return people::NeedsSurfaceCheck(person.detection, initiation);
   };
-  const bool somebody_is_sure = !std::all_of(seen.begin(), seen.end(), is_doubtful);
+  const bool has_certain_person = !std::all_of(seen.begin(), seen.end(), needs_check);
   for (size_t i = seen.size(); i-- > 0;) {
     const Body& body = result.bodies[i];
-    if (!body.fit || !is_doubtful(seen[i])) continue;
+    if (!body.fit || !needs_check(seen[i])) continue;
     const people::ExplainedShares fit{body.fit->explained, body.fit->score};
-    if (!people::IsPoorBodyFit(fit, body.person_score, somebody_is_sure, initiation)) continue;
+    if (!people::IsPoorBodyFit(fit, body.person_score, has_certain_person, initiation)) continue;
     ClearParts(body.id, result);
     people::WithdrawPerson(body.id, people_state, result.users, result.decisions);
     persons.erase(body.id);
@@ -195,7 +195,7 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   for (const people::Person& person : seen.people) result.bodies.push_back(MakeBody(frame, person));
   const std::vector<Person*> in_view = RememberPersons(result.bodies, frame.time_s);
   if (KeepsParts()) result.parts = depth::Image<uint8_t>(frame.camera.width, frame.camera.height);
-  if (options.keep_probabilities) result.probabilities = NobodyIn(frame, model);
+  if (options.keep_probabilities) result.probabilities = ZeroProbabilities(frame, model);
   std::vector<StageTimes> times(result.bodies.size());
   ParallelFor(result.bodies.size(), options.threads, [&](size_t i) {
     Body& body = result.bodies[i];
@@ -217,7 +217,7 @@ BodyFrame Tracker::Impl::Track(const depth::DepthFrame& frame) {
   return result;
 }
 
-/// The last thing that is done to a frame: all people in one world.
+/// The last step: simulates all people in one scene.
 BodyFrame Tracker::Impl::Play(BodyFrame frame) {
   if (!scene) return frame;
   const Stopwatch watch;
@@ -228,13 +228,13 @@ BodyFrame Tracker::Impl::Play(BodyFrame frame) {
   return frame;
 }
 
-/// In the camera's own space, whichever way up it is.
+/// Tracks in the upright image; the result is in the camera's own space.
 BodyFrame Tracker::Impl::TrackTurned(const depth::DepthFrame& frame) {
   if (options.turn == Turn::kAuto) FindUpright(frame);
   const int quarters = QuarterTurns();
   BodyFrame result = quarters == 0 ? Track(frame) : Track(depth::Turned(frame, quarters));
   TurnBack(result, quarters);
-  if (!result.bodies.empty()) upright.Followed(frame.time_s);
+  if (!result.bodies.empty()) upright.NoteTracked(frame.time_s);
   return result;
 }
 

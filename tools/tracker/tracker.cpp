@@ -39,7 +39,7 @@ bool IsFromAbove(Mount mount, const ModelSet& models) {
   return mount == Mount::kCeiling || (mount == Mount::kAuto && models.from_ceiling);
 }
 
-// A refinement learned from elsewhere would be wrong without a word.
+// A refinement learned for the other mount would give wrong joints without an error.
 void CheckRefinement(const ModelSet& models, bool from_above) {
   if (!models.refinement || models.refinement->from_above() == from_above) return;
   const std::string name = models.refinement_file.empty() ? "refinement" : models.refinement_file;
@@ -55,7 +55,7 @@ ModelSet LoadModels(const TrackerOptions& options) {
   const bool exchanged = options.mount == Mount::kCeiling && !models.ceiling_file.empty();
   if (exchanged) models = LoadCeilingModels(models, LoadCeilingForest(models));
   const bool from_above = IsFromAbove(options.mount, models);
-  if (models.from_ceiling && !from_above) models.refinement = nullptr;  // said to be level
+  if (models.from_ceiling && !from_above) models.refinement = nullptr;  // declared level
   CheckRefinement(models, from_above);
   return models;
 }
@@ -88,10 +88,10 @@ Tracker::Impl::Impl(const TrackerOptions& o)
   skeleton.smoothing = ResolveSmoothing(o);
   skeleton.bones_m = o.bones_m;
   skeleton.reconstructor = MethodOptions(o, models);
-  recon::MakeReconstructor(skeleton.reconstructor);  // says now what is wrong with the options
+  recon::MakeReconstructor(skeleton.reconstructor);  // reports wrong options now
   for (const auto& [id, lengths_m] : o.bones_m) MethodFor(id, skeleton);
   if (IsUnderCeiling()) people_options = people::PeopleOptionsFromAbove();
-  // Under the ceiling people are near, but known by the floor, which is farther.
+  // Under the ceiling people are near, but the floor is needed and farther.
   people_options.scene.max_depth_m = o.near_range && !IsUnderCeiling() ? 3.0F : 6.0F;
   people_options.initiation.max_users = o.max_users;
   people_options.threads = o.threads;
@@ -139,8 +139,7 @@ Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
-// What filling holes and finding out how the camera is mounted took is the frame's, too: who waits
-// for the frame waits for it.
+// The frame's time includes hole filling and mount detection.
 BodyFrame Tracker::TrackFilled(const depth::DepthFrame& frame) {
   const Stopwatch watch;
   CheckFrame(frame);
@@ -153,7 +152,7 @@ BodyFrame Tracker::TrackFilled(const depth::DepthFrame& frame) {
   return result;
 }
 
-// In the camera's own space, whichever way up it is; from then on with the models of where it is.
+// Tracks in the camera's own space; switches to the ceiling models once the frame shows that view.
 BodyFrame Tracker::TrackAsMounted(const depth::DepthFrame& frame) {
   BodyFrame result = impl_->TrackTurned(frame);
   if (!impl_->ShowsCeilingView(frame, result)) return result;
@@ -161,7 +160,7 @@ BodyFrame Tracker::TrackAsMounted(const depth::DepthFrame& frame) {
   return impl_->TrackTurned(frame);
 }
 
-// Everything anew but for what the application set meanwhile and the frames held back.
+// Replaces all state except the application's settings and the frames held back by the lag.
 void Tracker::SwitchToCeiling() {
   TrackerOptions options = impl_->options;
   options.models = LoadCeilingModels(impl_->models, impl_->ceiling_forest);
@@ -174,13 +173,13 @@ void Tracker::SwitchToCeiling() {
 
 Mount Tracker::mount() const { return impl_->IsUnderCeiling() ? Mount::kCeiling : Mount::kLevel; }
 
-// Tracked first: that may exchange impl_.
+// TrackFilled may replace impl_, so it comes first.
 BodyFrame Tracker::Track(const depth::DepthFrame& frame) {
   BodyFrame tracked = TrackFilled(frame);
   return impl_->Play(std::move(tracked));
 }
 
-// Smoothed first: what touches in the world is not moved apart.
+// The lag smoothing comes before the scene, whose contacts it would break.
 std::optional<BodyFrame> Tracker::TrackWithLag(const depth::DepthFrame& frame) {
   BodyFrame tracked = TrackFilled(frame);
   auto late = impl_->lagged.Add(std::move(tracked));
@@ -195,7 +194,7 @@ std::optional<BodyFrame> Tracker::DrainLag() {
 }
 
 void Tracker::FindUpright(depth::FrameSource& source, const std::function<bool()>& idle) {
-  constexpr double kLongest_s = 20.0;  // by hand: people come into view before
+  constexpr double kLongest_s = 20.0;  // by hand: most recordings show a person before
   std::optional<double> first_s;
   while (impl_->options.turn == Turn::kAuto && !impl_->upright.is_sure() && (!idle || idle())) {
     const depth::ReadResult read = source.Read(std::chrono::milliseconds(100));

@@ -24,9 +24,9 @@ namespace ossa::depth {
 class FrameSource;
 }
 
-/// The run-time tracker: depth frames in, bodies out. Everything the Kinect SDK's skeleton stream
-/// gave, for any depth camera. No global state; several trackers may run in one process, each used
-/// from one thread at a time.
+/// The run-time tracker: depth frames in, bodies out. Offers what the Kinect SDK's skeleton stream
+/// offered, for any depth camera. No global state; several trackers may run in one process, each
+/// used by one thread at a time.
 namespace ossa::tracker {
 
 // Constants: of the Kinect SDK (six people); seed and threads by convention.
@@ -39,49 +39,49 @@ enum ClippedEdge : unsigned {
   kClippedBottom = 8
 };
 
-/// How much is done for a body.
+/// How much of a body is estimated.
 enum class BodyState {
-  kPositionOnly,  // known to be there; joints are not looked for
+  kPositionOnly,  // position only; no joints are estimated
   kTracked,       // fully tracked
 };
 
 /// One joint of a tracked body, as an application uses it. Camera space, metres.
 struct JointEstimate {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  /// Camera from bone: the bone that ends in this joint has its y axis along the way from the
-  /// parent, as the Kinect SDK's absolute orientations. ComputeHierarchicalOrientations gives the
-  /// SDK's other kind.
+  /// Camera from bone: the y axis of the bone that ends in this joint points from the parent to the
+  /// joint, as in the Kinect SDK's absolute orientations. ComputeHierarchicalOrientations gives the
+  /// hierarchical ones.
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  /// Tracked: seen in the image. Inferred: guessed from what is seen around it. Not tracked: the
-  /// position is what is plausible for the rest of the body.
+  /// Tracked: seen in the image. Inferred: estimated from what is seen around it. Not tracked: only
+  /// plausible given the rest of the body.
   recon::TrackingState state = recon::TrackingState::kNotTracked;
-  double confidence = 0.0;   // the forest's own trust in what it saw, [0, 1]
+  double confidence = 0.0;   // confidence of the forest, [0, 1]
   double reliability = 0.0;  // R_i of Shum 2013, eq. 8: does it move and measure as a joint? [0, 1]
 };
 
-/// A place where a joint may be, as the forest sees it: a mode of its density estimate.
+/// A joint proposal of the forest: a mode of its density estimate.
 struct JointProposal {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // camera space, inside the body
   double confidence = 0.0;                               // [0, 1]
-  bool seen = true;  // false: no surface of its own voted; inferred from the other joints
+  bool seen = true;  // false: no pixels of this part voted; inferred from the other joints
 };
 
-/// Of every pixel how likely it shows each of the forest's classes: label 0 is the background, 1
-/// to 31 are the parts of recon/body/parts.h, of the shipped forest.
+/// The probability of each of the forest's classes for each pixel: label 0 is the background, 1 to
+/// 31 are the parts of recon/body/parts.h, for the shipped forest.
 struct PartProbabilities {
   int width = 0, height = 0, classes = 0;
-  std::vector<float> data;  // height x width x classes, row-major; 0 where nobody is
+  std::vector<float> data;  // height x width x classes, row-major; 0 at pixels of no person
 };
 
-/// One person. `joints` is the skeleton; below it stands what each stage before it made of the
-/// person, for who compares or debugs stages. Camera space, metres.
+/// One person. `joints` is the skeleton; the members below it are the results of the earlier
+/// stages, for comparison and debugging. Camera space, metres.
 struct Body {
-  int id = 0;  // the same from frame to frame for as long as the person is followed, from 1
+  int id = 0;  // from 1; constant while the person is tracked
   BodyState state = BodyState::kTracked;
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // middle of the seen surface
-  recon::JointArray<JointEstimate> joints;  // as at first where only the position is known
-  unsigned clipped_edges = 0;               // of ClippedEdge
-  double person_score = 0.0;                // how surely this is a person, [0, 1]
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // centroid of the visible surface
+  recon::JointArray<JointEstimate> joints;               // default values for kPositionOnly
+  unsigned clipped_edges = 0;                            // of ClippedEdge
+  double person_score = 0.0;                             // probability of being a person, [0, 1]
 
   /// Stage 1, the forest: the joints chosen among its proposals, in this frame alone.
   recon::TrackedPosture raw;
@@ -89,44 +89,45 @@ struct Body {
   /// Stage 2, the refinement cascade at the depth image, and the pose network where one is used:
   /// the raw joints moved; absent without either.
   std::optional<recon::Posture> refined;
-  std::optional<recon::BoneLengths> refined_bones_m;  // as it judges them in this frame alone
-  /// Stage 3, the body whose surface explains the depth: with TrackerOptions::fit, where there are
-  /// refined joints and the image shows enough of the person.
+  std::optional<recon::BoneLengths> refined_bones_m;  // its estimate in this frame alone
+  /// Stage 3, the fitted body surface: with TrackerOptions::fit, if there are refined joints and
+  /// enough of the person is visible.
   std::optional<recon::SurfaceFit> fit;
-  /// The person's shape by all fits until now, of which recon::MeasureStature tells their height;
-  /// absent before the first.
+  /// The person's mean shape over all fits, from which recon::MeasureStature computes their height;
+  /// absent before the first fit.
   std::optional<recon::PersonShape> shape;
-  /// Stage 4, the method of reconstruction: made complete, plausible and steady.
+  /// Stage 4, the reconstruction method: complete, plausible and steady.
   recon::Posture reconstructed;
-  std::optional<recon::BoneLengths> bones_m;  // by all frames until now, of methods that keep bones
+  std::optional<recon::BoneLengths>
+      bones_m;  // mean over the frames, for methods that keep bone lengths
 };
 
 /// Positions of the skeleton, in enum order.
 recon::Posture ToPosture(const Body& body);
 
-/// Each bone's turn against its parent's, as the Kinect SDK's hierarchical orientations.
+/// Each bone's rotation relative to its parent, as the Kinect SDK's hierarchical orientations.
 recon::JointOrientations ComputeHierarchicalOrientations(const Body& body);
 
-/// Milliseconds spent on one frame, several people's added up; on several threads `total` is less
-/// than the sum. What is spent on things that turn out to be nobody counts with the stages, which
-/// way up the camera is, where it is mounted and images that are turned with `segment`.
+/// Processing times of one frame, milliseconds, summed over people; with several threads `total` is
+/// less than the sum. Rejected candidates count in the stages; searching for image rotation and
+/// mount, and rotating images, counts in `segment`.
 struct StageTimes {
   double segment = 0, classify = 0, propose = 0, reconstruct = 0, physics = 0, total = 0;
-  double fit = 0;  // of the surface, within `reconstruct`
+  double fit = 0;  // of the surface fit, part of `reconstruct`
 };
 
-/// What the tracker says of one depth frame.
+/// The result of one depth frame.
 struct BodyFrame {
   int64_t index = 0;
   double time_s = 0.0;
   std::optional<Eigen::Vector4d> floor;   // a b c d, unit normal up: the SDK's floor clip plane
   std::optional<double> tilt_down_rad;    // of the sensor, from the floor; negative: it looks up
   std::vector<Body> bodies;               // by id
-  depth::Image<uint8_t> users;            // id of the body each pixel belongs to, 0 nobody
+  depth::Image<uint8_t> users;            // id of the body each pixel belongs to, 0 for none
   depth::Image<uint8_t> parts;            // body part per pixel; empty unless asked for
   PartProbabilities probabilities;        // by the trees alone; empty unless asked for
   std::vector<SceneObjectState> objects;  // of TrackerOptions::scene
-  people::FrameDecisions decisions;       // why whoever is here was found, or not
+  people::FrameDecisions decisions;       // why each candidate was accepted or rejected
   StageTimes ms;
 };
 
@@ -136,66 +137,66 @@ enum class TrackingMode {
   kSeated,    // the ten upper joints of the SDK's seated mode; the rest are not tracked
 };
 
-/// How far a camera's images must be turned, clockwise, for people to stand upright in them.
+/// The clockwise rotation of a camera's images after which people stand upright in them.
 enum class Turn {
   kNone,
   kQuarter,
   kHalf,
   kThreeQuarters,
-  kAuto,  // as people are seen: where nobody is followed, all four are tried about once a second
+  kAuto,  // by the people in view: while none is tracked, all four are tried about once a second
 };
 
-/// Where the camera is.
+/// The mount of the camera.
 enum class Mount {
-  kAuto,     // level, until a floor far below and a body on it say that it hangs under the ceiling
-  kLevel,    // on a shelf, a table, a tripod: it looks down by less than 45 degrees
-  kCeiling,  // 2.2 to 4 m above the floor; it looks down by more than some 55 degrees
+  kAuto,     // level, until a floor far below with a body on it shows a camera under the ceiling
+  kLevel,    // on a shelf, a table, a tripod: tilted down by less than 45 degrees
+  kCeiling,  // 2.2 to 4 m above the floor: tilted down by more than about 55 degrees
 };
 
-/// How a Tracker works; as it stands, what the command `ossa track` does without options.
+/// Options of a Tracker; the defaults are those of the command `ossa track`.
 struct TrackerOptions {
   std::string method{recon::kDefaultMethod};  // one of recon::ReconstructionMethods()
   std::optional<ModelSet> models;             // left out: ModelSet::Shipped(method)
-  bool physics = false;                       // let the mechanical character follow the posture
-  /// Fit the body's surface to the depth image, from the refined joints on, and let the method
-  /// start from both. Nothing, or models without a refinement or a surface: no fit.
+  bool physics = false;  // simulate a mechanical character that follows the posture
+  /// Fit the body's surface to the depth image, starting from the refined joints, and pass both to
+  /// the method. Without a value, or with models that lack a refinement or a surface: no fit.
   std::optional<recon::SurfaceFitOptions> fit = recon::SurfaceFitOptions{};
-  MechanicsBuild mechanics;  // how that is built
-  /// All people in one mechanical world, with the things of a scene: in place of `physics`, which
-  /// knows each person alone. Joints are where that world lets them be.
+  MechanicsBuild mechanics;  // how the character is built
+  /// Simulate all people in one mechanical world with the objects of a scene, in place of
+  /// `physics`, which simulates each person alone. The result obeys that world.
   std::optional<SceneOptions> scene;
   recon::LocalPcaOptions local_pca;                // of shum-2013 and plantard-2016
   recon::GaussianProcessOptions gaussian_process;  // of liu-2016 and full-gp
   recon::BestOptions best;                         // of best; `refined_joints` follows the models
-  /// Left out: what goes with the method (recon::MethodInfo::smoothing). One that is a filter
-  /// itself gets no second one, which would only lag.
+  /// Default: the smoothing of the method (recon::MethodInfo::smoothing). Methods that filter have
+  /// none, because a second filter only adds lag.
   std::optional<SmoothingOptions> smoothing;
   TrackingMode mode = TrackingMode::kStanding;
-  /// Of TrackWithLag and Run: bodies so many frames later and steadier, 0 (live) to 2.
+  /// For TrackWithLag and Run: delay in frames, 0 (live) to 2, for smoother bodies.
   int lag = 0;
-  /// Of a camera that lies on its side or hangs upside down. All results stay in its own space.
+  /// For a camera on its side or upside down. All results stay in its own space.
   Turn turn = Turn::kNone;
   Mount mount = Mount::kAuto;  // automatic only with models that have a forest for the ceiling
   /// The SDK's near mode: people from 0.4 to 3 m only, before a level camera.
   bool near_range = false;
   int max_users = 6;
-  /// By body id, of people whose bones are known (Body::bones_m of a run before over the same
-  /// recording): they stay from the first frame to the last. Only for methods that keep bones.
+  /// Known bone lengths by body id (Body::bones_m of an earlier run over the same recording), which
+  /// are kept for the whole run. Only for methods that keep bones.
   std::map<int, recon::BoneLengths> bones_m;
-  /// By body id, of people whose shape is known (Body::shape of a run before, or a person file):
-  /// whoever gets that id is fitted with it from the first frame on. Ids count who comes into view,
-  /// from 1: of several who are there at first the nearest to the camera need not be 1.
+  /// Known shapes by body id (Body::shape of an earlier run, or a person file): the person who gets
+  /// that id is fitted with it from the first frame. Ids are given from 1 in the order of
+  /// appearance; of several people in the first frame the nearest need not be 1.
   std::map<int, recon::PersonShape> shapes;
   bool keep_parts = false;          // fill BodyFrame::parts
   bool keep_probabilities = false;  // fill BodyFrame::probabilities, and parts
   bool keep_proposals = false;      // fill Body::proposals
-  bool trace = false;  // BodyFrame::decisions also names the surfaces that nobody is looked for in
+  bool trace = false;  // BodyFrame::decisions also lists the surfaces excluded from the search
   int threads = 1;
   uint64_t seed = 1;
   void Check() const;  // throws std::invalid_argument with name, value and range
 };
 
-/// Follows people from frame to frame. Used from one thread at a time; its own threads are those of
+/// Tracks people over frames. Used by one thread at a time; its own threads are
 /// TrackerOptions::threads.
 class Tracker {
  public:
@@ -206,46 +207,47 @@ class Tracker {
   Tracker(Tracker&&) noexcept;
   Tracker& operator=(Tracker&&) noexcept;
 
-  /// One frame in, its bodies out: polling. Frames of any size, in order of time. Throws InputError
-  /// when pixels and camera do not agree in number.
+  /// Tracks one frame. Frames may differ in size and come in order of time. Throws InputError if
+  /// the number of pixels does not match the camera.
   BodyFrame Track(const depth::DepthFrame& frame);
 
-  /// The same with TrackerOptions::lag: one frame in, the bodies of the frame so many before out,
-  /// their joints smoothed by what came after; nothing until so many came.
+  /// With TrackerOptions::lag: takes one frame and returns the bodies of the frame `lag` frames
+  /// earlier, smoothed over the frames before and after; nothing for the first `lag` frames.
   std::optional<BodyFrame> TrackWithLag(const depth::DepthFrame& frame);
-  /// After TrackWithLag, at the end of a stream: the bodies that are still held, the oldest first;
-  /// nothing when all are out.
+  /// At the end of a stream, after TrackWithLag: the next held frame, oldest first; nothing when
+  /// all were returned.
   std::optional<BodyFrame> DrainLag();
 
-  /// Reads a source to its end, or until the callback returns false. With TrackerOptions::lag the
-  /// callback gets bodies late, and at the end those that are still held. `idle` is asked about ten
-  /// times a second while no frame comes: false ends the run. Returns how many frames the source
-  /// lost. Throws InputError when the source is damaged: DrainLag tells then what is still held.
+  /// Tracks a source to its end, or until the callback returns false. With TrackerOptions::lag
+  /// bodies are delayed, and the held ones are passed at the end. `idle` is called about ten times
+  /// a second while no frame arrives; false ends the run. Returns the number of frames that the
+  /// source dropped. Throws InputError if the source is damaged; DrainLag then returns the held
+  /// frames.
   int64_t Run(depth::FrameSource& source, const std::function<bool(const BodyFrame&)>& on_bodies,
               const std::function<bool()>& idle = {});
 
-  /// With Turn::kAuto: looks through the beginning of a recording, up to 20 s, for which way up its
-  /// camera is, so that its first frames are tracked the right way, too. Follows nobody.
-  /// `idle` is asked after every frame: false ends the search.
+  /// With Turn::kAuto: searches the beginning of a recording, up to 20 s, for the image rotation,
+  /// so that its first frames are tracked upright, too. Tracks no people. `idle` is called after
+  /// every frame; false ends the search.
   void FindUpright(depth::FrameSource& source, const std::function<bool()>& idle = {});
-  /// By how many quarters, clockwise, frames are turned now.
+  /// The current clockwise rotation of frames, in quarter turns.
   int quarter_turns() const;
 
-  /// Level or under the ceiling, as far as is known now.
+  /// The current mount, level or under the ceiling.
   Mount mount() const;
 
   /// Track only these users fully, the others by position (the SDK's AppChoosesSkeletons).
   void ChooseUsers(std::vector<int> ids);
-  void ChooseAllUsers();  // as at the start
+  void ChooseAllUsers();  // the default
   void SetMode(TrackingMode mode);
-  /// For a camera that was mounted anew; forgets everybody where it is another turn.
+  /// For a camera that was rotated; a changed turn deletes all tracks.
   void SetTurn(Turn turn);
   void SetSmoothing(const SmoothingOptions& smoothing);
-  /// The world of TrackerOptions::scene, for an application that has more to do in it; null
-  /// without. Until the next frame: with Mount::kAuto it may then be another.
+  /// The scene of TrackerOptions::scene; null without. Valid until the next frame: with
+  /// Mount::kAuto the tracker may be replaced then.
   Scene* scene();
-  /// Forgets everybody, frames that a lag holds back (DrainLag tells them before), with
-  /// Mount::kAuto where the camera is and with Turn::kAuto which way up; a scene begins anew.
+  /// Deletes all tracks, the frames held by the lag (call DrainLag before), the found mount of
+  /// Mount::kAuto and the found rotation of Turn::kAuto; restarts the scene.
   void Reset();
 
  private:
@@ -255,10 +257,11 @@ class Tracker {
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
-  std::unique_ptr<Impl> level_;  // while impl_ is that of a ceiling: what was before
+  std::unique_ptr<Impl>
+      level_;  // while impl_ is the tracker for the ceiling: the one for a level camera
 };
 
-/// "MAJOR.MINOR.PATCH" of the library that runs, which may be another than the headers'.
+/// "MAJOR.MINOR.PATCH" of the loaded library, which may differ from the headers'.
 const char* Version();
 
 /// The SDK's seated joints: shoulders and up, arms and hands.

@@ -14,11 +14,10 @@
 
 namespace ossa::tracker {
 
-/// Throws InputError: of a camera, a time or an image's size that cannot be.
+/// Throws InputError for an invalid camera, time or image size.
 void CheckFrame(const depth::DepthFrame& frame);
 
-/// A tracker of cameras that are mounted in one way, level or under the ceiling: what it was told,
-/// has read and remembers.
+/// A tracker for one mount, level or under the ceiling: options, models and state.
 struct Tracker::Impl {
   TrackerOptions options;
   ModelSet models;
@@ -31,7 +30,7 @@ struct Tracker::Impl {
   std::optional<std::vector<int>> chosen_ids;
   UprightFinder upright;
   MountFinder mount_finder;
-  // Read when a ceiling was suspected.
+  // Loaded when a ceiling view is suspected.
   std::shared_ptr<const forest::ForestModel> ceiling_forest;
   LaggedBodies lagged;
   std::optional<Scene> scene;
@@ -41,7 +40,7 @@ struct Tracker::Impl {
   LaggedBodies NothingLagged() const;
   BodyFrame Track(const depth::DepthFrame& frame);
   bool IsUnderCeiling() const;
-  // What the application set meanwhile.
+  // Settings that the application changed since construction.
   void CopySettings(const Impl& other);
   bool ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked);
   BodyFrame TrackTurned(const depth::DepthFrame& frame);

@@ -10,7 +10,7 @@
 namespace ossa::tracker {
 namespace {
 
-// The borders of an image, clockwise from above.
+// The borders of an image, clockwise from the top.
 constexpr std::array<unsigned, 4> kBorders = {kClippedTop, kClippedRight, kClippedBottom,
                                               kClippedLeft};
 
@@ -89,20 +89,21 @@ void TurnBack(BodyFrame& frame, int quarters) {
   TurnBack(frame.probabilities, quarters);
 }
 
-// The present way first: if somebody is sure that way, no other is asked. False while some are
-// left.
-bool UprightFinder::AskWays(const depth::DepthFrame& frame, int most, const ScoreOfTurn& score) {
-  if (asked_ == 0) scores_ = {};
-  for (; most > 0 && asked_ < kTurns; --most) {
-    const int turn = (quarters_ + asked_++) % kTurns;
+// Scores at most `most` rotations, the current one first; if that has a certain person, the others
+// are skipped. True when the search is complete.
+bool UprightFinder::ScoreRotations(const depth::DepthFrame& frame, int most,
+                                   const ScoreOfTurn& score) {
+  if (scored_ == 0) scores_ = {};
+  for (; most > 0 && scored_ < kTurns; --most) {
+    const int turn = (quarters_ + scored_++) % kTurns;
     double& found = scores_[static_cast<size_t>(turn)];
     found = score(frame, turn);
-    if (turn == quarters_ && found >= options_.sure) asked_ = kTurns;
+    if (turn == quarters_ && found >= options_.sure) scored_ = kTurns;
   }
-  return asked_ == kTurns;
+  return scored_ == kTurns;
 }
 
-int UprightFinder::BestTurn() const {
+int UprightFinder::FindBestTurn() const {
   const double present = scores_[static_cast<size_t>(quarters_)];
   if (present >= options_.sure) return quarters_;
   const auto best =
@@ -111,20 +112,20 @@ int UprightFinder::BestTurn() const {
   return most >= options_.sure && most > present + options_.clearly ? best : -1;
 }
 
-bool UprightFinder::Look(const depth::DepthFrame& frame, const ScoreOfTurn& score) {
-  const double since_s = frame.time_s - looked_s_, alone_s = frame.time_s - followed_s_;
+bool UprightFinder::Update(const depth::DepthFrame& frame, const ScoreOfTurn& score) {
+  const double since_s = frame.time_s - searched_s_, alone_s = frame.time_s - tracked_s_;
   const bool in_doubt = agreeing_ > 0 || !std::isfinite(since_s);
-  const double step_s = frame.time_s - std::exchange(before_s_, frame.time_s);
+  const double step_s = frame.time_s - std::exchange(previous_s_, frame.time_s);
   const bool is_shared = !in_doubt && step_s >= 0 && step_s < options_.shared_s;
   if (alone_s >= 0 && alone_s < options_.every_s) {
-    asked_ = 0;
+    scored_ = 0;
     return false;
   }
-  if (asked_ == 0 && !in_doubt && since_s >= 0 && since_s < options_.every_s) return false;
-  if (asked_ == 0) looked_s_ = frame.time_s;
-  if (!AskWays(frame, is_shared ? 1 : kTurns, score)) return false;
-  asked_ = 0;
-  const int best = BestTurn();
+  if (scored_ == 0 && !in_doubt && since_s >= 0 && since_s < options_.every_s) return false;
+  if (scored_ == 0) searched_s_ = frame.time_s;
+  if (!ScoreRotations(frame, is_shared ? 1 : kTurns, score)) return false;
+  scored_ = 0;
+  const int best = FindBestTurn();
   agreeing_ = best >= 0 && (agreeing_ == 0 || best == candidate_) ? agreeing_ + 1 : 0;
   candidate_ = best;
   if (best == quarters_) {

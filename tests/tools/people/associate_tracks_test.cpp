@@ -1,4 +1,4 @@
-// Who is who from one frame to the next.
+// Association of people with tracks.
 #include "tools/people/associate_tracks.h"
 
 #include "tests/tools/people/scenes.h"
@@ -8,7 +8,7 @@ namespace {
 
 class Identity : public testing::Test {
  protected:
-  // All candidates are people; ids from left to right of the sensor (falling x).
+  // All candidates count as people; ids from left to right of the sensor (falling x).
   std::vector<int> See(const CapsuleRender& render) {
     const Proposed proposed = Propose(render, state_);
     std::vector<Candidate> people = proposed.candidates;
@@ -26,8 +26,8 @@ TEST_F(Identity, StaysWhileAPersonWalks) {
     EXPECT_EQ(See(Shot({PersonAt(-0.5 + 0.05 * i, 2.5)}, i)), std::vector<int>{1}) << i;
 }
 
-TEST_F(Identity, OfTwoWhoPassEachOtherStaysWithEach) {
-  // Two metres a second, a metre apart: for a moment the farther one is hidden.
+TEST_F(Identity, IsKeptWhenTwoPeoplePassEachOther) {
+  // At two metres per second and a metre apart: for a moment the farther one is occluded.
   std::vector<int> ids, first;
   for (int i = 0; i <= 30; ++i) {
     const double x_m = -1.0 + i / 15.0;
@@ -47,8 +47,9 @@ TEST_F(Identity, SurvivesASecondOutOfView) {
   EXPECT_EQ(See(Shot({PersonAt(0.3, 2.5)}, 30)), std::vector<int>{1});
 }
 
-TEST_F(Identity, SurvivesAWayBehindSomebodyElse) {
-  // Half seen for a few frames, then 1.2 s and 1.7 m behind somebody near, then at the other side.
+TEST_F(Identity, SurvivesAnOcclusionByAnotherPerson) {
+  // Half visible for a few frames, then 1.2 s and 1.7 m behind a nearer person, then at the other
+  // side.
   const auto far_x_m = [](int i) { return 1.35 - 1.4 * i / 30.0; };
   int far_id = 0;
   for (int i = 0; i <= 46; ++i) {
@@ -62,10 +63,10 @@ TEST_F(Identity, SurvivesAWayBehindSomebodyElse) {
   EXPECT_EQ(See(Shot({PersonAt(0, 1.8), PersonAt(far_x_m(47), 3.6)}, 47))[1], far_id);
 }
 
-// Half of somebody who walks is hidden at a time; the keypoints are on the whole body.
+// Half of a walker is occluded at a time; the keypoints are on the whole body.
 class HalfHidden : public testing::Test {
  protected:
-  // Velocity after ten frames of a walk of 1.5 m/s of which `shown` of 1 is seen in each.
+  // Velocity after ten frames of walking at 1.5 m/s, with a visible share of `shown` in each.
   template <class Shown>
   Eigen::Vector3f VelocityAfter(const Shown& shown, bool with_keypoints) {
     PeopleState state;
@@ -97,11 +98,11 @@ class HalfHidden : public testing::Test {
 TEST_F(HalfHidden, WalksAsTheKeypointsOnTheBodyDo) {
   const auto uncovered = [](int f) { return 0.2F - 0.06F * static_cast<float>(f); };
   EXPECT_NEAR(VelocityAfter(uncovered, true).x(), 1.5F, 0.05F);
-  EXPECT_LT(VelocityAfter(uncovered, false).x(), 1.2F);  // the middle of what is seen lags
+  EXPECT_LT(VelocityAfter(uncovered, false).x(), 1.2F);  // the visible centroid lags
 }
 
-TEST_F(Identity, BesideSomebodyNearerTheMiddleOfTheSurfaceSaysNothingOfTheVelocity) {
-  // Somebody comes out to the left from behind somebody near who stands still.
+TEST_F(Identity, VelocityOfAnOccludedPersonIsNotThatOfTheVisibleCentroid) {
+  // A person comes out to the left from behind a nearer one who stands still.
   int seen = 0;
   for (int i = 0; i < 12; ++i) {
     See(Shot({PersonAt(0, 1.8), PersonAt(0.45 + 0.02 * i, 3.4)}, i));
@@ -114,8 +115,8 @@ TEST_F(Identity, BesideSomebodyNearerTheMiddleOfTheSurfaceSaysNothingOfTheVeloci
   EXPECT_GT(seen, 6);
 }
 
-TEST_F(Identity, WhoTurnsOutToBePartOfAnotherIsForgotten) {
-  // Remembered, the part would claim its cells again in the next frame.
+TEST_F(Identity, ATrackThatIsPartOfAnotherIsDeleted) {
+  // If kept, the part would claim its cells again in the next frame.
   const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)}, 0);
   const std::vector<int> ids = See(render);
   ASSERT_EQ(ids.size(), 2U);
@@ -129,7 +130,7 @@ TEST_F(Identity, WhoTurnsOutToBePartOfAnotherIsForgotten) {
   EXPECT_EQ(tracks().size(), 1U);
 }
 
-TEST_F(Identity, OfTwoPiecesOfSomebodyTheLargerGoesOn) {
+TEST_F(Identity, TheLargerOfTwoSegmentsKeepsTheTrack) {
   ASSERT_EQ(See(Shot({PersonAt(0, 2.5)}, 0)), std::vector<int>{1});
   const CapsuleRender render = Shot({PersonAt(0, 2.5)}, 1);
   const Proposed proposed = Propose(render, state_);
@@ -141,7 +142,7 @@ TEST_F(Identity, OfTwoPiecesOfSomebodyTheLargerGoesOn) {
   const auto cut = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 5);
   piece.region = depth::MakeRegion(grid, {cells.begin(), cut});
   rest.region = depth::MakeRegion(grid, {cut, cells.end()});
-  rest.track = -1;  // the forest took it for somebody new
+  rest.track = -1;  // classified as a new person
   EXPECT_EQ(Confirm(proposed, {piece, rest}, render.frame.time_s, state_),
             (std::vector<int>{2, 1}));
 }
@@ -156,7 +157,7 @@ TEST_F(Identity, AnotherRoomIsAnotherScene) {
   EXPECT_EQ(See(render), std::vector<int>{2});
 }
 
-// A few cells in the middle of the image, said to be `x_m` to the side.
+// A few cells in the middle of the image, placed `x_m` to the side.
 Candidate SomebodyFarOff(const PointGrid& grid, float x_m) {
   Candidate person;
   person.region = depth::MakeRegion(grid, {grid.cell(40, 40), grid.cell(41, 40)});
@@ -170,7 +171,7 @@ Proposed EmptyScene() {
   return empty;
 }
 
-TEST(AssociateTracks, GivesNobodyTheIdOfSomebodyRemembered) {
+TEST(AssociateTracks, NeverReusesTheIdOfALostTrack) {
   const Proposed empty = EmptyScene();
   PeopleState state;
   state.tracks.next_id = 255;  // the last; then from 1 again
@@ -185,7 +186,7 @@ TEST(AssociateTracks, GivesNobodyTheIdOfSomebodyRemembered) {
   EXPECT_EQ(Confirm(empty, {a, b}, 0.1, state), (std::vector<int>{2, 4}));
 }
 
-// Nobody is forgotten where time stands still, as of an application that gives none.
+// No track expires while timestamps stand still, as from an application that gives none.
 TEST(AssociateTracks, AnyNumberOfVisitorsHaveDifferentIdsThatFitAByte) {
   const Proposed empty = EmptyScene();
   PeopleState state;
@@ -211,7 +212,7 @@ PeopleState TwoAtOnePlace(const Candidate& there) {
   return state;
 }
 
-TEST(AssociateTracks, WhoGoesOnIsNotTakenForSomebodyWhoWasLostThere) {
+TEST(AssociateTracks, AContinuedTrackIsNotReplacedByALostOneAtTheSamePlace) {
   const Proposed empty = EmptyScene();
   Candidate person = SomebodyFarOff(empty.scene.grid, 0.0F);
   for (const int track : {0, 1}) {
@@ -221,8 +222,8 @@ TEST(AssociateTracks, WhoGoesOnIsNotTakenForSomebodyWhoWasLostThere) {
   }
 }
 
-// Two people who both go on, of whom one holds most of what the other one held.
-TEST(AssociateTracks, WhoGoesOnIsNoHeirOfSomebodyElse) {
+// Two continuing people, one of whom holds most of the cells that the other one held.
+TEST(AssociateTracks, AContinuedTrackTakesNoOtherTracksId) {
   const Proposed empty = EmptyScene();
   const PointGrid& grid = empty.scene.grid;
   std::vector<int> left, right;
@@ -244,7 +245,7 @@ TEST(AssociateTracks, WhoGoesOnIsNoHeirOfSomebodyElse) {
   }
 }
 
-TEST_F(Identity, IsLostBehindSomebodyBesideWhomTheyWereSeenLast) {
+TEST_F(Identity, IsLostBehindThePersonAtWhoseSilhouetteItWasLastSeen) {
   See(Shot({PersonAt(0, 1.8), PersonAt(0.5, 3.4), PersonAt(-1.2, 3.0)}, 0));
   ASSERT_EQ(tracks().size(), 3U);
   for (const Track& track : tracks()) EXPECT_FALSE(track.lost_behind) << "in view";
@@ -253,7 +254,7 @@ TEST_F(Identity, IsLostBehindSomebodyBesideWhomTheyWereSeenLast) {
   for (const Track& track : tracks()) EXPECT_EQ(track.lost_behind, track.mean_m.z() > 3.1F);
 }
 
-// Somebody who was seen at 10 s and moved at 8 s, who is not seen in a frame at `time_s`.
+// A person seen at 10 s and moved at 8 s, who is not visible in a frame at `time_s`.
 Track UnseenAt(double time_s) {
   const Proposed empty = EmptyScene();
   PeopleState state;
@@ -268,30 +269,30 @@ Track UnseenAt(double time_s) {
   return state.tracks.tracks.at(0);
 }
 
-// Else who did not move lately would be moving until the time comes again at which they did.
-TEST(AssociateTracks, WhereTheClockGoesBackNobodyMovedLaterThanTheyWereSeen) {
+// Otherwise a static track would count as moving until the time of its last movement comes again.
+TEST(AssociateTracks, WhenTheClockGoesBackNoTrackMovedAfterItWasSeen) {
   const Track track = UnseenAt(-500.0);
   EXPECT_EQ(track.last_seen_s, -500.0);
   EXPECT_EQ(track.moved_s, -502.0);
 }
 
-TEST(AssociateTracks, WhoIsNotSeenIsAnybodyWhereTheClockGoesBackButNotByAFewMilliseconds) {
+TEST(AssociateTracks, LostTracksLoseTheirEvidenceWhenTheClockGoesBackByMoreThanJitter) {
   EXPECT_EQ(UnseenAt(10.03).age, 30);
   EXPECT_EQ(UnseenAt(9.997).age, 30);
   EXPECT_EQ(UnseenAt(9.99).age, 0);
 }
 
-TEST(AssociateTracks, WhoIsInViewIsConfirmedAlsoWhereTimeStandsStill) {
+TEST(AssociateTracks, TracksInViewAreConfirmedWhileTimeStandsStill) {
   std::vector<Track> tracks(2);
   tracks[0].id = 4;
-  tracks[1].id = 7;  // seen at the same time, but in the frame before
+  tracks[1].id = 7;  // seen at the same timestamp, but in the frame before
   const auto summaries = SummarizeTracks(tracks, {4});
   EXPECT_EQ(summaries[0].status, TrackStatus::kConfirmed);
   EXPECT_EQ(summaries[1].status, TrackStatus::kLost);
 }
 
-// Two are out of view, and of two who come back the one between their places is somebody already:
-// the id that goes to that one.
+// Two tracks are lost, and two people return; the one between the lost places is already accepted:
+// the id that this person gets.
 int IdOfTheFirst(bool other_comes_too) {
   PeopleState state;
   for (int f = 0; f < 3; ++f) Confirm(Propose(Shot({}, f), state), {}, f / 30.0, state);
@@ -315,7 +316,7 @@ int IdOfTheFirst(bool other_comes_too) {
   return Confirm(proposed, {*first}, render.frame.time_s, state).at(0);
 }
 
-TEST(AssociateTracks, WhoIsNobodyYetMayBeOneOfTheLostToo) {
+TEST(AssociateTracks, UnconfirmedCandidatesCompeteForLostTracks) {
   EXPECT_EQ(IdOfTheFirst(false), 1);  // half a metre away, not seven tenths
   EXPECT_EQ(IdOfTheFirst(true), 2);   // the other one stands where the first was lost
 }

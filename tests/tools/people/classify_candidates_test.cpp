@@ -1,4 +1,4 @@
-// What of the pieces and of the furniture around belongs to one person: made-up joints, no forest.
+// Merging and cropping of detections: synthetic joints, no forest.
 #include "tools/people/classify_candidates.h"
 
 #include "tests/tools/people/evidence.h"
@@ -10,7 +10,7 @@ namespace {
 
 using recon::Joint;
 
-// Somebody, and a box beside them that is held to be part of them.
+// A person with a box beside them in the same segment.
 class PersonWithABox : public testing::Test {
  protected:
   void SetUp() override {
@@ -33,7 +33,7 @@ class PersonWithABox : public testing::Test {
       joints[hand] = joints[wrist] + 0.5 * (joints[hand] - joints[wrist]);  // too long for a hand
     detection_.evidence = MakeSureEvidence(joints);
   }
-  // Of the box's, and of all other cells held.
+  // Shares of the box's and of all other cells that are kept.
   std::pair<long, long> Held() const {
     const auto& cells = detection_.candidate.region.cells;
     const long box = std::count_if(cells.begin(), cells.end(),
@@ -59,7 +59,7 @@ TEST_F(PersonWithABox, KeepsItWhenAnArmIsNotSeen) {  // it may be the arm
   EXPECT_EQ(Held(), before);
 }
 
-// Upper and lower half of somebody, from two regions.
+// Upper and lower half of a person, from two regions.
 class Halves : public testing::Test {
  protected:
   void SetUp() override {
@@ -85,11 +85,12 @@ class Halves : public testing::Test {
   Detection upper_, lower_;
 };
 
-TEST_F(Halves, AreTriedAsOneWhenEitherLooksLikeAPersonWhileBothAreNew) {
+TEST_F(Halves, AreMergedIfEitherScoresLikeAPersonWhileBothAreNew) {
   EXPECT_TRUE(Tried(0.9, 0.1, 1, false));
   EXPECT_FALSE(Tried(0.5, 0.1, 1, false));
   EXPECT_FALSE(Tried(0.9, 0.1, options_.initiation.early_age + 1, false));
-  lower_.candidate.region = depth::MakeRegion(scene_.grid, {0, 1, 2});  // does not meet the upper
+  lower_.candidate.region =
+      depth::MakeRegion(scene_.grid, {0, 1, 2});  // not adjacent to the upper one
   EXPECT_FALSE(Tried(0.9, 0.1, 1, false));
 }
 
@@ -98,7 +99,7 @@ TEST_F(Halves, AreTriedAtAnyAgeWhereTheyWouldBeTwoPeopleOneAboveTheOther) {
   EXPECT_FALSE(Tried(0.9, 0.1, options_.initiation.early_age + 1, true));
 }
 
-TEST_F(Halves, AreStackedAlsoBeforeASensorThatLooksDown) {
+TEST_F(Halves, AreStackedAlsoForASensorTiltedDown) {
   EXPECT_TRUE(AreStacked(scene_, options_, upper_, lower_));
   const float tilt_rad = 0.5F;
   scene_.grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};
@@ -116,7 +117,7 @@ TEST_F(Halves, AreStackedAlsoBeforeASensorThatLooksDown) {
   EXPECT_FALSE(AreStacked(scene_, options_, upper_, lower_));
 }
 
-TEST_F(Halves, OfWhoLeansForwardAreStackedWhereBothLookLikePeople) {
+TEST_F(Halves, OfALeaningPersonAreStackedIfBothScoreLikePeople) {
   const auto at = [](float z_m, float y_m) {
     Region region;
     region.mean_m = {0, y_m, z_m};
@@ -134,7 +135,7 @@ TEST_F(Halves, OfWhoLeansForwardAreStackedWhereBothLookLikePeople) {
 }
 
 // Shares as of people and of coats on stands in rendered rooms.
-TEST(IsPoorBodyFit, MoreIsAskedBesideSomebody) {
+TEST(IsPoorBodyFit, ThresholdIsHigherBesideAPerson) {
   const InitiationOptions options;
   const ExplainedShares coat{0.71, 0.58}, person{0.93, 0.89}, cupboard{0.46, 0.2};
   EXPECT_FALSE(IsPoorBodyFit(coat, 0.87, false, options));
@@ -143,7 +144,7 @@ TEST(IsPoorBodyFit, MoreIsAskedBesideSomebody) {
   EXPECT_TRUE(IsPoorBodyFit(cupboard, 0.9, false, options));
 }
 
-TEST(MayBeTwoPeople, WhoWasOneForLongIsOneWhileNoMoreShows) {
+TEST(MayBeTwoPeople, ALongLivedTrackIsNotSplitWhileItsSurfaceDoesNotGrow) {
   ClassificationOptions options;
   Detection whole;
   whole.prior.full_m2 = 0.45F;
@@ -152,7 +153,7 @@ TEST(MayBeTwoPeople, WhoWasOneForLongIsOneWhileNoMoreShows) {
   EXPECT_TRUE(MayBeTwoPeople(whole, options));
   whole.age = 40;
   EXPECT_FALSE(MayBeTwoPeople(whole, options));
-  whole.candidate.region.area_m2 = 0.65F;  // somebody came
+  whole.candidate.region.area_m2 = 0.65F;  // a second person came
   EXPECT_TRUE(MayBeTwoPeople(whole, options));
 }
 

@@ -1,4 +1,4 @@
-// Why a piece of the scene was taken for a person or not.
+// Decision records of candidates.
 #include "tools/people/decision.h"
 
 #include <set>
@@ -19,7 +19,7 @@ TEST(Rules, HaveNamesOfTheirOwnAndTexts) {
   EXPECT_EQ(NameOutcome(FindOutcome(Rule::kEnoughObservations)), "confirmed");
 }
 
-// The decisions that geometry makes about a thing that stands free in an empty room.
+// The decisions by geometry on an object that stands free in an empty room.
 std::vector<Rule> ExcludedBy(const std::vector<tests::Box>& boxes) {
   PeopleOptions options;
   options.trace_surfaces = true;

@@ -1,11 +1,11 @@
-// People who came into a known room, and the furniture that stood in it before.
+// People who entered a known room, and the furniture in it.
 #include "tests/tools/people/scenes.h"
 
 namespace ossa::people {
 namespace {
 
-// A box like a person that stood there before somebody who came passed it and went out of view.
-TEST(WhoEntered, DoesNotGoOnAsFurnitureThatStoodThereBefore) {
+// A person-sized box, part of the background, that a person passed on the way out of view.
+TEST(EnteredPerson, DoesNotContinueInKnownFurniture) {
   const tests::Box box{{-0.17, -0.95, 3.0}, {0.17, 0.5, 3.2}};
   PeopleState state;
   const Proposed before = Propose(Shot({}, 0, {box}), state);
@@ -15,7 +15,7 @@ TEST(WhoEntered, DoesNotGoOnAsFurnitureThatStoodThereBefore) {
   track.id = 1;
   track.cells = before.candidates[0].region.cells;
   for (const int cell : track.cells) track.z_m.push_back(before.scene.grid.z(cell));
-  // Last seen together with the box, of which nothing entered.
+  // Last seen together with the box, no part of which entered.
   for (const bool entered : {false, true}) {
     track.entered = entered;
     PeopleState followed = state;
@@ -26,7 +26,7 @@ TEST(WhoEntered, DoesNotGoOnAsFurnitureThatStoodThereBefore) {
   }
 }
 
-TEST(WhoEntered, IsRememberedHoweverMuchFurnitureTheyHoldLater) {
+TEST(EnteredPerson, StaysEnteredWhenItsSegmentIncludesFurniture) {
   PeopleState state;
   for (int f = 0; f < 2; ++f) {
     const Proposed proposed = Propose(Shot({PersonAt(0, 2.5)}, f), state);
@@ -39,8 +39,7 @@ TEST(WhoEntered, IsRememberedHoweverMuchFurnitureTheyHoldLater) {
   }
 }
 
-// Somebody walks up to a box that stood there before, and stays at it: the share of what is held
-// for them that is theirs.
+// A person walks up to a known box and stays at it: the person's share of their segment.
 double MeasureShareOfPersonAtABox(bool entered) {
   const tests::Box box{{-0.3, -0.5, 2.45}, {-0.05, 0.3, 2.7}};
   PeopleState state;
@@ -67,10 +66,10 @@ double MeasureShareOfPersonAtABox(bool entered) {
   return share;
 }
 
-TEST(WhoEntered, DoesNotCreepIntoTheFurnitureTheyTouch) {
+TEST(EnteredPerson, DoesNotSpreadIntoTouchedFurniture) {
   EXPECT_GT(MeasureShareOfPersonAtABox(true), 0.85);
   EXPECT_LT(MeasureShareOfPersonAtABox(false),
-            0.8);  // for all that is known of them it may be theirs
+            0.8);  // without tracks the box may belong to the person
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ inline JointTargets OneTargetPerJoint() {
   return targets;
 }
 
-/// Evidence of a forest that is sure of these joints.
+/// Evidence with these joints as confident proposals.
 inline ForestEvidence MakeSureEvidence(const recon::Posture& joints) {
   ForestEvidence evidence;
   for (const Eigen::Vector3d& joint_m : joints.position_m) {

@@ -1,4 +1,4 @@
-// One body of which an arm, or something held before it, leaves several pieces.
+// One body that an arm, or an object held before it, divides into several regions.
 #include "tools/people/join_pieces.h"
 
 #include "tests/tools/people/scenes.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 
-// A thing of one depth in a picture that is otherwise empty: columns and rows, [from, to).
+// An object at one depth in an otherwise empty image: columns and rows, [from, to).
 struct Patch {
   int left, right, top, bottom;
   uint16_t mm;
@@ -33,7 +33,7 @@ std::vector<Region> Pieces(const PointGrid& grid) {
   return depth::FindConnectedRegions(grid, none, JoinOptions{}.piece_m2);
 }
 
-// Two things 6 rows apart, with `between` in that gap.
+// Two objects 6 rows apart, with `between` in the gap.
 bool DoMeet(uint16_t lower_mm, uint16_t between_mm) {
   const PointGrid grid =
       Painted({{60, 100, 20, 50, 1000}, {60, 100, 56, 90, lower_mm}, {0, 160, 50, 56, between_mm}});
@@ -50,10 +50,10 @@ bool DoMeet(uint16_t lower_mm, uint16_t between_mm) {
          std::ranges::count(meeting[lower], upper) == 1;
 }
 
-TEST(FindAdjacentPieces, OverWhatIsNearerAndOverItsShadow) {
+TEST(FindAdjacentPieces, AcrossAnOccluderAndItsShadow) {
   EXPECT_TRUE(DoMeet(1000, 700));  // an arm
-  EXPECT_TRUE(DoMeet(1000, 0));    // nothing was measured
-  EXPECT_TRUE(DoMeet(1300, 0));    // a trunk below the arm that hides its upper half
+  EXPECT_TRUE(DoMeet(1000, 0));    // no readings
+  EXPECT_TRUE(DoMeet(1300, 0));    // a trunk below the arm that occludes its upper half
 }
 
 TEST(FindAdjacentPieces, NotWhereTheRoomShowsBetweenNorFarBehind) {
@@ -66,14 +66,14 @@ TEST(FindAdjacentPieces, NotOverMoreThanAnArmHides) {
   for (const auto& others : FindAdjacentPieces(grid, Pieces(grid), {})) EXPECT_TRUE(others.empty());
 }
 
-// Head and trunk, each too small for a person, below and above an arm, and a thing beside that
+// Head and trunk, each too small for a person, below and above an arm, and an object beside that
 // touches the trunk.
 class CutInTwo : public testing::Test {
  protected:
   static constexpr Patch kHead{60, 84, 10, 30, 1000}, kTrunk{50, 90, 36, 60, 1000},
       kThing{90, 130, 36, 60, 1200};
 
-  // The more of head and trunk, the more like a person; nothing with the thing is one.
+  // The score grows with the share of head and trunk; with the object it is 0.
   ClassifyRegion Classifier() {
     return [this](Region region) {
       Detection detection;
@@ -95,7 +95,7 @@ class CutInTwo : public testing::Test {
   int asked_ = 0;
 };
 
-TEST_F(CutInTwo, GrowsByWhatMakesItMoreLikeAPersonAlone) {
+TEST_F(CutInTwo, GrowsByPiecesThatRaiseTheScore) {
   const auto wholes = Grow();
   ASSERT_FALSE(wholes.empty());
   const Detection& best = *std::ranges::max_element(wholes, {}, GetPersonScore);
@@ -115,7 +115,7 @@ TEST_F(CutInTwo, AloneIsAskedForOnlyWhereTheImageCutsItOff) {
   EXPECT_EQ(Grow().size(), 1U);
 }
 
-TEST_F(CutInTwo, WhatIsLargeEnoughWasAskedForBefore) {
+TEST_F(CutInTwo, PersonSizedPiecesWithoutNeighboursAreNotTriedAgain) {
   grid_ = Painted({{40, 110, 40, kHeight, 1000}});
   ASSERT_TRUE(IsPersonSized(Pieces(grid_)[0], {}));
   EXPECT_TRUE(Grow().empty());

@@ -1,4 +1,4 @@
-// Measures of a body between the joints that the forest is sure of: made-up joints, no forest.
+// Body measures between confident joints: synthetic joints, no forest.
 #include "tools/people/measure_body.h"
 
 #include <gtest/gtest.h>
@@ -11,14 +11,14 @@ namespace {
 
 using recon::Joint;
 
-TEST(MeasureBody, LeavesOutLimbsThatNobodyHas) {
+TEST(MeasureBody, LeavesOutImplausibleLimbs) {
   recon::Posture joints = tests::ComputeJoints(tests::CapsulePose{});
   const auto thigh_m = [&] {
     const auto body = MeasureBody(MakeSureEvidence(joints), OneTargetPerJoint(), std::nullopt);
     return body[static_cast<size_t>(Measure::kThigh)];
   };
   ASSERT_TRUE(thigh_m());
-  // A knee half hidden is taken to be where the thigh ends that is seen.
+  // A partly occluded knee is placed where the visible part of the thigh ends.
   for (const auto& [hip, knee] :
        {std::pair(Joint::kHipLeft, Joint::kKneeLeft), {Joint::kHipRight, Joint::kKneeRight}}) {
     joints[knee] = joints[hip] + 0.3 * (joints[knee] - joints[hip]);

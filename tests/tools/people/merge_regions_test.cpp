@@ -1,4 +1,4 @@
-// Regions that belong to one person by where the tracks were.
+// Merging of regions by predicted tracks.
 #include "tools/people/merge_regions.h"
 
 #include "tests/tools/people/scenes.h"
@@ -6,8 +6,8 @@
 namespace ossa::people {
 namespace {
 
-// What shows of something broad at both sides of a post: the left piece is a user's of whom more
-// was seen before, the right one comes out a stride from where the user is expected.
+// The visible parts of a wide object at both sides of a post: the left one is of a track that was
+// larger before, the right one is a stride from the track's predicted place.
 std::vector<Region> BroadBehind(const std::vector<tests::Box>& post) {
   const tests::Box broad{{-0.35, -0.5, 3.2}, {0.35, 0.2, 3.4}};
   std::vector<tests::Box> both = post;
@@ -31,16 +31,16 @@ std::vector<Region> BroadBehind(const std::vector<tests::Box>& post) {
   return MergeByTracks(grid, std::move(pieces), owner, {user}, 0.0);
 }
 
-TEST(MergeByTracks, TakesWhatComesOutAtTheOtherSideOfSomebodyNearer) {
+TEST(MergeByTracks, MergesARegionThatAppearsAtTheOtherSideOfAnOccluder) {
   const tests::Box post{{-0.1, -0.9, 2.0}, {0.1, 0.9, 2.05}};
   EXPECT_EQ(BroadBehind({post}).size(), 1U);
 }
 
-TEST(MergeByTracks, LeavesWhatStandsBesideWithNothingNearerBetween) {
+TEST(MergeByTracks, LeavesARegionBesideWithoutAnOccluderBetween) {
   EXPECT_EQ(BroadBehind({}).size(), 2U);
 }
 
-TEST(FindMainOwner, NothingIsNobodys) {
+TEST(FindMainOwner, ARegionWithoutCellsHasNone) {
   EXPECT_EQ(FindMainOwner(Region{}, std::vector<int>{0, 0}, 1), -1);
 }
 

@@ -1,4 +1,4 @@
-// Pieces of somebody of whom something nearer hides the middle.
+// Regions of a person whose middle is occluded.
 #include "tools/people/occlusion_merge.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace ossa::people {
 namespace {
 
-// Cells in which two pictures differ in depth, as connected pieces.
+// Cells in which two images differ in depth, as connected regions.
 std::vector<Region> Changed(const PointGrid& before, const PointGrid& now) {
   std::vector<uint8_t> ignore(static_cast<size_t>(now.cells()), 0);
   for (int i = 0; i < now.cells(); ++i)
@@ -16,7 +16,7 @@ std::vector<Region> Changed(const PointGrid& before, const PointGrid& now) {
   return depth::FindConnectedRegions(now, ignore, 0.02F);
 }
 
-// What shows of something tall above a board and below it.
+// The visible parts of a tall object above and below a board.
 class Behind : public testing::Test {
  protected:
   void SetUp() override {
@@ -38,14 +38,14 @@ TEST_F(Behind, PiecesAtBothSidesOfSomethingNearerAreOne) {
   EXPECT_EQ(MergeBesideOccluder(grid_, pieces_, all_, nobody_, 0).size(), 1U);
 }
 
-TEST_F(Behind, WhatDidNotComeOrIsSomebodysStaysApart) {
+TEST_F(Behind, OwnedRegionsAndBackgroundAreNotMerged) {
   const std::vector<uint8_t> none(all_.size(), 0);
   EXPECT_EQ(MergeBesideOccluder(grid_, pieces_, none, nobody_, 0).size(), pieces_.size());
   for (const int cell : pieces_[0].cells) nobody_[static_cast<size_t>(cell)] = 0;
   EXPECT_GT(MergeBesideOccluder(grid_, pieces_, all_, nobody_, 1).size(), 1U);
 }
 
-TEST_F(Behind, LegsBelowATableBecomeTheirsWhoStandsAtIt) {
+TEST_F(Behind, LegsBelowATableAreMergedWithThePersonAtIt) {
   ASSERT_EQ(pieces_.size(), 2U);
   const size_t body = pieces_[0].mean_m.y() > pieces_[1].mean_m.y() ? 0 : 1;
   for (const int cell : pieces_[body].cells) nobody_[static_cast<size_t>(cell)] = 0;
@@ -65,8 +65,8 @@ TEST_F(Behind, ATablesOwnLegsAreTooThin) {
   EXPECT_EQ(MergeBelowOccluder(grid_, regions, 0, nobody_).size(), 2U);
 }
 
-// Pieces of what came where nothing was, with the wall in view between them, joined: how many
-// remain.
+// Regions of new objects in front of a wall that is visible between them, merged: the number that
+// remains.
 size_t JoinedOf(const tests::Box& a, const tests::Box& b) {
   const PointGrid grid = GridOf(Shot({}, 0, {a, b}));
   auto regions = Changed(GridOf(Shot({})), grid);
@@ -77,7 +77,7 @@ size_t JoinedOf(const tests::Box& a, const tests::Box& b) {
       .size();
 }
 
-TEST(MergeBesideOccluder, NobodyComesAboveSomebodyElseAtOnePlace) {
+TEST(MergeBesideOccluder, MergesRegionsAboveEachOtherAtOnePlace) {
   const tests::Box lower{{-0.1, -0.9, 3.0}, {0.1, -0.3, 3.2}};
   EXPECT_EQ(JoinedOf(lower, {{-0.2, 0.1, 3.0}, {0.0, 0.5, 3.2}}), 1U);
   EXPECT_EQ(JoinedOf(lower, {{-0.2, 0.1, 3.6}, {0.0, 0.5, 3.8}}), 2U);     // behind,
@@ -85,7 +85,7 @@ TEST(MergeBesideOccluder, NobodyComesAboveSomebodyElseAtOnePlace) {
   EXPECT_EQ(JoinedOf(lower, {{0.15, -0.7, 3.0}, {0.35, -0.1, 3.2}}), 2U);  // half beside
 }
 
-TEST(MergeBesideOccluder, SomebodyInStrideShowsAtBothSidesOfSomebodyNear) {
+TEST(MergeBesideOccluder, MergesAWalkerAtBothSidesOfANearerPerson) {
   const tests::Box post{{-0.17, -0.9, 2.0}, {0.17, 0.9, 2.05}};
   const tests::Box strider{{-0.38, -0.8, 3.2}, {0.38, 0.3, 3.4}};
   const PointGrid grid = GridOf(Shot({}, 0, {post, strider}));
@@ -99,7 +99,7 @@ TEST(MergeBesideOccluder, SomebodyInStrideShowsAtBothSidesOfSomebodyNear) {
             1U);
 }
 
-// Two pieces of other distances, something near between them, and in a gap of it something more.
+// Two regions at different distances, an occluder between them, and another object in a gap of it.
 bool IsOccludedWithAGapTo(uint16_t gap_mm) {
   const depth::Camera camera = depth::KinectV1Camera(160, 120);
   depth::DepthFrame frame;
@@ -130,7 +130,7 @@ TEST(IsOccludedBetween, IsNotWhereTheRoomShowsBehindBoth) {
   EXPECT_FALSE(IsOccludedWithAGapTo(5500)) << "the wall";
 }
 
-TEST(IsOneAboveOther, IsMeantOverTheFloorAlsoOfASensorThatLooksDown) {
+TEST(IsOneAboveOther, IsHorizontalDistanceAlsoForASensorTiltedDown) {
   const float tilt_rad = 0.45F;
   PointGrid grid;
   grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};
@@ -162,7 +162,7 @@ TEST(MergeBesideOccluder, ThingsSideBySideWithTheWallBetweenThemStayApart) {
             2U);
 }
 
-// What is 3 m away, seen through openings in a board 2 m away.
+// An object 3 m away, seen through openings in a board 2 m away.
 PointGrid GridBehindBoard(const std::vector<tests::Box>& openings) {
   DepthFrame frame;
   frame.camera = KinectV1Camera(320, 240);

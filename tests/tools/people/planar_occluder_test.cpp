@@ -1,4 +1,4 @@
-// Somebody behind the back of a seat.
+// A person behind the back of a seat.
 #include "tools/people/planar_occluder.h"
 
 #include "tests/tools/people/scenes.h"
@@ -7,7 +7,7 @@
 namespace ossa::people {
 namespace {
 
-// The back of a seat, frontal, 2.2 m away; below it one looks through.
+// The back of a seat, frontal, 2.2 m away, with an opening below it.
 tests::Box SeatBack(double top_m) { return {{-0.31, -0.2, 2.2}, {0.31, top_m, 2.3}}; }
 
 CapsulePose SomebodyAt(double z_m) {
@@ -32,7 +32,7 @@ Region RegionOf(const CapsuleRender& render, const PointGrid& grid, bool person)
   return MakeRegion(grid, std::move(cells));
 }
 
-TEST(FitWholePlane, IsTheBackOfASeatAndNobody) {
+TEST(FitWholePlane, FindsTheBackOfASeatAndNoPerson) {
   const CapsuleRender render = Shot({SomebodyAt(2.7)}, 0, {SeatBack(0.2)});
   const PointGrid grid = GridOf(render);
   const RoomShape shape = ShapeOf(grid);
@@ -46,7 +46,7 @@ TEST(FitWholePlane, IsTheBackOfASeatAndNobody) {
   EXPECT_FALSE(StandsBehind(GridOf(before), RegionOf(before, GridOf(before), true), *seat));
 }
 
-TEST(ProposeCandidates, TheBackOfASeatIsNoPartOfWhoShowsAboveIt) {
+TEST(ProposeCandidates, TheBackOfASeatIsNotMergedWithThePersonAboveIt) {
   const CapsuleRender render = Shot({SomebodyAt(2.7)}, 0, {SeatBack(0.27)});
   const Proposed proposed = ProposeAlone(render);
   const Scene& scene = proposed.scene;
@@ -74,7 +74,7 @@ TEST(FindHeads, AlsoWhereSomethingNearerHidesTheShoulders) {
     PointGrid grid = GridOf(render);
     const Region head = RegionOf(render, grid, true);
     const Region seat = RegionOf(render, grid, false);
-    // Where nothing is nearer, what ends so soon is no head on shoulders.
+    // Without an occluder a segment that ends so soon has no head on shoulders.
     for (const int cell : seat.cells)
       if (!hidden) grid.point_m[static_cast<size_t>(cell)] *= 4.5F / 2.2F;
     EXPECT_EQ(FindHeads(grid, head).size(), hidden ? 1U : 0U);

@@ -1,4 +1,4 @@
-// What a pose network's errors say of whether somebody is there.
+// Person scores by the errors of a pose network.
 #include "tools/people/pose_evidence.h"
 
 #include <gtest/gtest.h>
@@ -29,12 +29,12 @@ TEST(ScoreWithPose, GrowsWithBothAndNeitherIsAllThatCounts) {
   const double needed = InitiationOptions{}.person_by_pose_score;
   EXPECT_LT(ComputeScoreWithPose(0.5, 2.5), ComputeScoreWithPose(0.6, 2.5));
   EXPECT_LT(ComputeScoreWithPose(0.5, 2.5), ComputeScoreWithPose(0.5, 2.6));
-  // A forest that is all but certain of furniture, and one in doubt of a person behind a board.
+  // A forest with a high score for furniture, and one with a low score for a person behind a board.
   EXPECT_LT(ComputeScoreWithPose(0.999, 1.7), needed);
   EXPECT_GT(ComputeScoreWithPose(0.3, 3.5), needed);
 }
 
-TEST(ScoreWithPose, IsFiniteWhateverTheForestSays) {
+TEST(ScoreWithPose, IsFiniteForAnyForestScore) {
   EXPECT_EQ(ComputeScoreWithPose(0.0, 2.5), ComputeScoreWithPose(0.04, 2.5));
   EXPECT_EQ(ComputeScoreWithPose(1.0, 2.5), ComputeScoreWithPose(0.96, 2.5));
 }

@@ -1,4 +1,4 @@
-// Which pieces of a frame may be people, from shape and the tracks alone.
+// Proposing candidates by shape and tracks alone.
 #include "tools/people/propose_candidates.h"
 
 #include "tests/tools/people/scenes.h"
@@ -15,11 +15,11 @@ TEST(ProposeCandidates, APersonIsOnePieceWithoutTheRoom) {
   EXPECT_GT(candidate, 0.97);
 }
 
-TEST(ProposeCandidates, NobodyIsThereInAnEmptyRoom) {
+TEST(ProposeCandidates, AnEmptyRoomHasNone) {
   EXPECT_TRUE(ProposeAlone(Shot({})).candidates.empty());
 }
 
-TEST(ProposeCandidates, ATableTopIsNotPartOfWhoStandsAtIt) {
+TEST(ProposeCandidates, ATableTopIsNotMergedWithThePersonAtIt) {
   const tests::Box top{{-0.7, -0.30, 2.0}, {0.7, -0.25, 2.45}};
   const CapsuleRender render = Shot({PersonAt(0, 2.6)}, 0, {top});
   double best = 0;
@@ -28,7 +28,7 @@ TEST(ProposeCandidates, ATableTopIsNotPartOfWhoStandsAtIt) {
   EXPECT_GT(best, 0.85);  // an edge of the top may stay
 }
 
-TEST(ProposeCandidates, TwoWhoTouchAreCutBetweenTheirHeads) {
+TEST(ProposeCandidates, TwoTouchingPeopleAreSplitAtTheirHeads) {
   const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
   const Proposed proposed = ProposeAlone(render);
   ASSERT_EQ(proposed.candidates.size(), 2U);
@@ -52,7 +52,7 @@ CapsuleRender AtARollFromAbove() {
   return tests::Render(scene, KinectV1Camera(320, 240));
 }
 
-// Of candidates with a head, how far over the floor what is theirs lies from the head, metres.
+// The largest horizontal distance of a candidate's cells from its head, metres.
 std::vector<float> ReachesFromAbove(const PeopleOptions& options) {
   PeopleState state;
   const Proposed proposed = Propose(AtARollFromAbove(), state, options);
@@ -67,7 +67,7 @@ std::vector<float> ReachesFromAbove(const PeopleOptions& options) {
   return reaches_m;
 }
 
-TEST(ProposeCandidates, FromAboveWhoHasAHandOnSomethingLongEndsWithinReach) {
+TEST(ProposeCandidates, FromAboveAPersonTouchingALongObjectEndsWithinReach) {
   PeopleOptions options = PeopleOptionsFromAbove();
   const auto reaches_m = ReachesFromAbove(options);
   ASSERT_EQ(reaches_m.size(), 1U);
@@ -75,7 +75,7 @@ TEST(ProposeCandidates, FromAboveWhoHasAHandOnSomethingLongEndsWithinReach) {
   EXPECT_LE(reaches_m[0], options.candidates.overhead->reach_m + 0.05F) << "all of the roll is not";
 }
 
-TEST(MergeCandidates, GivesBackWhatWasCut) {
+TEST(MergeCandidates, UndoesASplit) {
   const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
   const Proposed proposed = ProposeAlone(render);
   ASSERT_EQ(proposed.candidates.size(), 2U);
@@ -88,7 +88,7 @@ TEST(MergeCandidates, GivesBackWhatWasCut) {
               static_cast<double>(a.pixels.size() + b.pixels.size()), 60.0);
 }
 
-// Shares are of all cells, areas add up, and what is known of either is known of both.
+// Shares are means over cells, areas add up, and flags of either hold for both.
 TEST(MergeCandidates, SharesAreWeighedByTheirCells) {
   const CapsuleRender render = Shot({PersonAt(-0.3, 2.5), PersonAt(0.3, 2.5)});
   const Proposed proposed = ProposeAlone(render);
@@ -132,7 +132,7 @@ TEST(MeetAlongRim, HalvesOfAPersonDoAndPeopleApartDoNot) {
   EXPECT_FALSE(MeetAlongRim(proposed.scene, person, proposed.candidates[1], {}));
 }
 
-// What comes into view beside somebody seen.
+// A candidate that appears beside a tracked person.
 Candidate NewBeside(float apart_m) {
   PeopleState state;
   const auto see = [&](const CapsuleRender& render, bool people) {
@@ -154,10 +154,10 @@ Candidate NewBeside(float apart_m) {
   return {};
 }
 
-TEST(ProposeCandidates, WhatComesIntoViewCloseToSomebodySeenMayBeTheRestOfThem) {
+TEST(ProposeCandidates, ANewCandidateBesideATrackedPersonMayBePartOfThem) {
   EXPECT_EQ(NewBeside(0.4F).foreground_share, 0.0);
   EXPECT_GT(NewBeside(0.9F).foreground_share, 0.9);
-  // 8 cm of the thing and some 20 cm of the person lie between the middles and the sides.
+  // The centroids are 8 cm of the object and some 20 cm of the person away from their sides.
   EXPECT_FALSE(NewBeside(0.9F).isolated);
   EXPECT_TRUE(NewBeside(1.1F).isolated);
 }

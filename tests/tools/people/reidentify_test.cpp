@@ -1,4 +1,4 @@
-// Who comes into view: somebody who went out of it, or somebody new.
+// Re-identification: a person who comes into view is a lost track or a new one.
 #include "tools/people/reidentify.h"
 
 #include <numeric>
@@ -32,7 +32,7 @@ TEST(BodyMeasures, SayNothingWhereNothingIsSeenOrAllIsWrong) {
   EXPECT_GT(CompareMeasures(KnownAs(Adult()), absurd), 0.0);
 }
 
-TEST(BodyMeasures, OfSomebodyHalfHiddenSayLess) {
+TEST(BodyMeasures, OfAnOccludedPersonWeighLess) {
   const BodyMeasures known = KnownAs(Adult());
   EXPECT_LT(CompareMeasures(known, Child()), CompareMeasures(known, Child(), true));
   EXPECT_GT(CompareMeasures(known, Adult()), CompareMeasures(known, Adult(), true));
@@ -56,7 +56,8 @@ double Sum(const std::vector<std::vector<double>>& weight, const std::vector<int
   return sum;
 }
 
-// Every row in every order takes the best column left: one of the orders is the best assignment.
+// Brute force: every order of rows, each taking the best column left; one of the orders is the best
+// assignment.
 double BestOfAllOrders(const std::vector<std::vector<double>>& weight, size_t columns) {
   std::vector<size_t> order(columns + weight.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -88,13 +89,13 @@ TEST(FindBestAssignment, IsAsGoodAsTheBestOfAll) {
   }
 }
 
-TEST(FindBestAssignment, LeavesOutWhatSpeaksAgainstIt) {
+TEST(FindBestAssignment, LeavesOutNegativeWeights) {
   EXPECT_EQ(FindBestAssignment({{-1, -0.5}}, 2), std::vector<int>{-1});
   EXPECT_EQ(FindBestAssignment({{5, 4}, {4.5, 0}}, 2),
             (std::vector<int>{1, 0}));  // not the 5 first
 }
 
-// Lost a while ago at the middle, seen again `x_m` to the side.
+// A track lost some time ago in the middle, and a person seen `x_m` to the side.
 class Lost : public testing::Test {
  protected:
   double Ratio(float x_m, double gone_s, Entrance entrance) const {
@@ -110,7 +111,7 @@ class Lost : public testing::Test {
   FrameMeasures body_{};
 };
 
-TEST_F(Lost, WhoWalksOnComesBackFartherOn) {
+TEST_F(Lost, AWalkerReturnsFartherOn) {
   EXPECT_LT(Ratio(1.7F, 1.2, Entrance::kOpen), 0.0);
   track_.velocity_m_s = {1.4F, 0, 0};
   track_.velocity_frames = 1;
@@ -121,18 +122,18 @@ TEST_F(Lost, WhoWalksOnComesBackFartherOn) {
   EXPECT_LT(Ratio(-1.7F, 1.2, Entrance::kOpen), 0.0);
 }
 
-TEST_F(Lost, NobodyNewComesOutFromBehindSomebodyInTheMiddleOfTheRoom) {
+TEST_F(Lost, APersonFromBehindAnotherInTheOpenIsALostOne) {
   EXPECT_GT(Ratio(1.2F, 1.2, Entrance::kBehind), 0.0);
   EXPECT_LT(Ratio(1.2F, 1.2, Entrance::kBorder), 0.0);
 }
 
-TEST_F(Lost, WhoDidNotGoBehindAnybodyHardlyComesOutFromBehind) {
+TEST_F(Lost, ATrackNotLostBehindAnotherHardlyReturnsFromBehind) {
   const double went_behind = Ratio(1.2F, 1.2, Entrance::kBehind);
   track_.lost_behind = false;
   EXPECT_LT(Ratio(1.2F, 1.2, Entrance::kBehind), went_behind - 1.0);
 }
 
-TEST_F(Lost, AnotherBodyAtTheSamePlaceIsSomebodyElse) {
+TEST_F(Lost, AnotherBodyAtTheSamePlaceIsAnotherPerson) {
   track_.measures = KnownAs(Adult());
   body_ = Adult();
   EXPECT_GT(Ratio(0.3F, 1.2, Entrance::kOpen), 0.0);
@@ -140,7 +141,7 @@ TEST_F(Lost, AnotherBodyAtTheSamePlaceIsSomebodyElse) {
   EXPECT_LT(Ratio(0.3F, 1.2, Entrance::kOpen), 0.0);
 }
 
-TEST_F(Lost, IsForgottenSoonerThanWhoWentBehindSomebody) {
+TEST_F(Lost, IsDeletedSoonerThanATrackLostBehindAnother) {
   EXPECT_FALSE(IsForgotten(track_, 1.0 + 4.0, {}));
   EXPECT_TRUE(IsForgotten(track_, 1.0 + 6.0, {}));
   track_.lost_behind = false;
@@ -161,7 +162,7 @@ Entrance FindEntranceOfFarther(double x_m) {
   return FindEntrance(grid, cells, z_m, person_of, 1);
 }
 
-TEST(FindEntrance, IsBehindAtSomebodysSilhouetteAndElsewhereOpenOrTheBorder) {
+TEST(FindEntrance, IsBehindAtAPersonsSilhouetteAndElsewhereOpenOrTheBorder) {
   EXPECT_EQ(FindEntranceOfFarther(-0.2), Entrance::kBehind);
   EXPECT_EQ(FindEntranceOfFarther(-1.0), Entrance::kOpen);
   EXPECT_EQ(FindEntranceOfFarther(-1.8), Entrance::kBorder);

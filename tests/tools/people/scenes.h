@@ -19,14 +19,14 @@ using tests::CapsulePose;
 using tests::CapsuleRender;
 using tests::CapsuleScene;
 
-/// What geometry and the tracks make of a frame.
+/// The candidates of a frame by geometry and tracks.
 struct Proposed {
   Scene scene;
   std::vector<Candidate> candidates;
   std::vector<Decision> excluded;
 };
 
-/// The steps of DetectPeople before the forest is asked.
+/// The steps of DetectPeople before classification.
 inline Proposed Propose(const CapsuleRender& render, PeopleState& state,
                         const PeopleOptions& options = {}) {
   const DepthFrame& frame = render.frame;
@@ -49,7 +49,7 @@ inline Proposed ProposeAlone(const CapsuleRender& render) {
   return Propose(render, state);
 }
 
-/// The steps after the forest was asked, which took these for people: their ids.
+/// The steps after classification, which accepted these candidates: their ids.
 inline std::vector<int> Confirm(const Proposed& proposed, const std::vector<Candidate>& people,
                                 double time_s, PeopleState& state,
                                 const std::vector<Keypoints>& keypoints_m = {}) {
@@ -66,7 +66,7 @@ inline std::vector<int> Confirm(const Proposed& proposed, const std::vector<Cand
   return ids;
 }
 
-/// Share of a person's pixels that a candidate has, and of the candidate that is the person's.
+/// The share of a person's pixels that a candidate has, and of the candidate that is the person's.
 inline std::pair<double, double> MeasureCover(const CapsuleRender& render,
                                               const Candidate& candidate, int person) {
   double whole = 0, common = 0;

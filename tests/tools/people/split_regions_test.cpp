@@ -1,4 +1,4 @@
-// Heads by shape, and what grows from seeds.
+// Head detection by shape, and growing of seeds.
 #include "tools/people/split_regions.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace ossa::people {
 namespace {
 
-TEST(SplitBySeeds, EntersWhatStoodThereBeforeByARimOnly) {
+TEST(SplitBySeeds, EntersTheBackgroundByARimOnly) {
   const std::vector<tests::Box> stool = {{{0.1, -1.0, 2.45}, {0.45, -0.4, 2.8}}};
   const CapsuleRender render = Shot({PersonAt(0, 2.5)}, 0, stool);
   const PointGrid grid = GridOf(render), empty = GridOf(Shot({}));
@@ -30,13 +30,13 @@ TEST(SplitBySeeds, EntersWhatStoodThereBeforeByARimOnly) {
     const Region piece = SplitBySeeds(grid, region, {seed}).at(0);
     return static_cast<double>(piece.cells.size() - seed.cells.size()) / stool_cells;
   };
-  EXPECT_GT(grown(person), 0.8);  // half a metre over the surface is nearly all of it
+  EXPECT_GT(grown(person), 0.8);  // growing by half a metre covers nearly all of it
   person.background = &stood;
   EXPECT_LT(grown(person), 0.4);  // a rim of 6 cm of 35
 }
 
-// The shortest ways over the surface from a seed alone, by going over all steps until nothing
-// becomes shorter.
+// Brute force: the shortest paths over the surface from a seed, by relaxing all steps until nothing
+// changes.
 std::vector<float> Ways_m(const PointGrid& grid, const std::vector<uint8_t>& member,
                           const std::vector<int>& seed, const SeedOptions& options) {
   std::vector<float> way_m(member.size(), 1e9F);

@@ -1,5 +1,4 @@
-// Who is taken for a person at once, who after a few observations: looks are made up, no forest is
-// needed.
+// Track initiation and termination: synthetic detections, no forest.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,21 +10,21 @@
 namespace ossa::people {
 namespace {
 
-struct Look {
+struct Observation {
   double score = 0;
-  float x_m = 0;                // of the thing's middle
-  double foreground_share = 0;  // of what stands where the room behind was seen
+  float x_m = 0;                // position of the centroid
+  double foreground_share = 0;  // share in front of the known background
   float area_m2 = 0.1F;
   bool has_head = true;
   bool isolated = true;
-  double occluded_share = 0.3;  // of its silhouette, by something nearer
+  double occluded_share = 0.3;  // share of its silhouette that is occluded
   Verifier verifier = Verifier::kForest;
 };
 
 class NewPerson : public testing::Test {
  protected:
-  // A thing of 100 cells that a step of 4 cm moves by one column of 160.
-  Detection Detect(const Look& look) {
+  // An object of 100 cells; a step of 4 cm moves it by one column of 160.
+  Detection Detect(const Observation& look) {
     Detection detection;
     detection.score = detection.evidence.score = look.score;
     detection.verifier = look.verifier;
@@ -54,33 +53,34 @@ class NewPerson : public testing::Test {
     return -1;
   }
   InitiationOptions options_;
-  Rule rule_ = Rule::kCount;  // by which it was nobody last
+  Rule rule_ = Rule::kCount;  // of the last rejection
 };
 
-TEST_F(NewPerson, IsBelievedAtOnceInAFreshSceneAndElsewhereAfterThreeSureLooks) {
-  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.65}; }), 0);
-  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.85, 0, 0, 0.1F, false}; }), -1);
-  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Look{0.95, 0, 0, 0.1F, false}; }), 0);
-  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.65}; }), -1);
-  EXPECT_EQ(AcceptedIn(3, false, [](int) { return Look{0.95}; }), 2);
-  EXPECT_EQ(AcceptedIn(20, false, [](int f) { return Look{f < 2 ? 0.98 : 0.7}; }), -1);
+TEST_F(NewPerson, IsAcceptedAtOnceInAFreshSceneAndElsewhereAfterThreeConfidentFrames) {
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Observation{0.65}; }), 0);
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Observation{0.85, 0, 0, 0.1F, false}; }), -1);
+  EXPECT_EQ(AcceptedIn(1, true, [](int) { return Observation{0.95, 0, 0, 0.1F, false}; }), 0);
+  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Observation{0.65}; }), -1);
+  EXPECT_EQ(AcceptedIn(3, false, [](int) { return Observation{0.95}; }), 2);
+  EXPECT_EQ(AcceptedIn(20, false, [](int f) { return Observation{f < 2 ? 0.98 : 0.7}; }), -1);
 }
 
-// A head's shape counts for nothing then.
+// The head's shape is not used then.
 TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
   const auto by_pose = [](double score, bool has_head) {
-    return Look{.score = score, .has_head = has_head, .verifier = Verifier::kForestAndNetwork};
+    return Observation{
+        .score = score, .has_head = has_head, .verifier = Verifier::kForestAndNetwork};
   };
   EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.45, true); }), -1);
   EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.55, false); }), 0);
   EXPECT_EQ(AcceptedIn(60, false, [&](int) { return by_pose(0.45, true); }), -1);
   EXPECT_EQ(AcceptedIn(3, false, [&](int) { return by_pose(0.55, false); }), 2);
-  // No surface has to say so once more, unless the forest is sure and the network is not.
+  // The surface fit is not needed, unless the forest is confident and the network is not.
   std::vector<TentativeTrack> tentative;
   Detection detection = Detect(by_pose(0.55, true));
   EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, detection));
   EXPECT_FALSE(NeedsSurfaceCheck(detection, options_));
-  Detection contested = Detect(Look{0.97});
+  Detection contested = Detect(Observation{0.97});
   contested.verifier = Verifier::kSurfaceFit;
   EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, contested));
   EXPECT_TRUE(NeedsSurfaceCheck(contested, options_));
@@ -88,7 +88,7 @@ TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
 
 TEST_F(NewPerson, ThatIsAPieceIsOneUnlessThePoseNetworkSaysOtherwise) {
   std::vector<TentativeTrack> tentative;
-  const auto is_one = [&](const Look& look) {
+  const auto is_one = [&](const Observation& look) {
     Detection piece = Detect(look);
     piece.is_piece = true;
     const bool is_person = DecidePerson(true, 0.0, options_, tentative, piece);
@@ -102,27 +102,28 @@ TEST_F(NewPerson, ThatIsAPieceIsOneUnlessThePoseNetworkSaysOtherwise) {
   EXPECT_EQ(rule_, Rule::kPieceLowScore);
 }
 
-TEST_F(NewPerson, ThatStandsLikeFurnitureIsNobodyHoweverOftenItIsLookedAt) {
-  EXPECT_EQ(AcceptedIn(60, false, [](int) { return Look{0.85}; }), -1);
-  // A poorer look of something that turns, and shows a quarter more, is somebody,
+TEST_F(NewPerson, StaticLikeFurnitureIsNeverAccepted) {
+  EXPECT_EQ(AcceptedIn(60, false, [](int) { return Observation{0.85}; }), -1);
+  // A lower score of an object that turns, and grows by a quarter, is a person,
   const auto turns = [](int f) {
-    return f < 10 ? Look{0.7} : Look{.score = 0.7, .foreground_share = 0.2, .area_m2 = 0.125F};
+    return f < 10 ? Observation{0.7}
+                  : Observation{.score = 0.7, .foreground_share = 0.2, .area_m2 = 0.125F};
   };
   EXPECT_EQ(AcceptedIn(60, false, turns), 10);
-  // ... but not of which somebody who passes uncovers a quarter more: it stands before nothing new.
-  const auto uncovered = [](int f) { return Look{0.7, 0, 0, f < 10 ? 0.1F : 0.125F}; };
+  // ... but not of one that a passer-by uncovers by a quarter: it is no foreground.
+  const auto uncovered = [](int f) { return Observation{0.7, 0, 0, f < 10 ? 0.1F : 0.125F}; };
   EXPECT_EQ(AcceptedIn(60, false, uncovered), -1);
 }
 
-TEST_F(NewPerson, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
-  // A head above somebody's shoulder, at 1.2 m/s: no cell is the same from one frame to the next.
+TEST_F(NewPerson, ThatEnteredBehindOthersIsTrackedWithLowScores) {
+  // A head above a person's shoulder, at 1.2 m/s: no cell is the same in consecutive frames.
   const auto at = [](int steps, double foreground_share) {
-    return Look{0.04, 0.04F * static_cast<float>(steps), foreground_share};
+    return Observation{0.04, 0.04F * static_cast<float>(steps), foreground_share};
   };
   const auto walks = [&](int f) { return at(f, 1); };
   EXPECT_EQ(AcceptedIn(60, false, walks), 13);  // 52 cm
   const auto beside_somebody = [&](int f) {
-    Look look = at(f, 1);
+    Observation look = at(f, 1);
     look.isolated = false;
     return look;
   };
@@ -133,11 +134,11 @@ TEST_F(NewPerson, WhoCameInBehindOthersIsFollowedThroughLooksThatShowLittle) {
   EXPECT_EQ(AcceptedIn(60, false, was_there), -1);
 }
 
-TEST_F(NewPerson, WhoCameAndIsSeenWholeMustLookLikeAPerson) {
-  // A dog that walks by: nothing hides any of it.
+TEST_F(NewPerson, CompletelyVisibleForegroundMustScoreLikeAPerson) {
+  // A dog that walks by, completely visible.
   const auto walks = [](double score) {
     return [score](int f) {
-      Look look{score, 0.04F * static_cast<float>(f), 1};
+      Observation look{score, 0.04F * static_cast<float>(f), 1};
       look.occluded_share = 0;
       return look;
     };
@@ -146,8 +147,8 @@ TEST_F(NewPerson, WhoCameAndIsSeenWholeMustLookLikeAPerson) {
   EXPECT_EQ(AcceptedIn(60, false, walks(0.65)), 0);
 }
 
-TEST_F(NewPerson, WhoCameStaysSomebodyWhileBendingDownAfterManyLooksOnly) {
-  Look bent{0.1, 0, 1};
+TEST_F(NewPerson, ThatBendsDownIsKeptOnlyAsALongLivedTrack) {
+  Observation bent{0.1, 0, 1};
   bent.occluded_share = 0;
   std::vector<TentativeTrack> tentative;
   for (const int age : {20, 40}) {
@@ -159,7 +160,7 @@ TEST_F(NewPerson, WhoCameStaysSomebodyWhileBendingDownAfterManyLooksOnly) {
   }
 }
 
-// Of whom was accepted only just more is asked, and of what never moved most.
+// The threshold is higher for young tracks, and highest for those that never moved.
 TEST_F(NewPerson, GoesOnByAScoreThatFallsWithAgeUnlessTheyNeverMoved) {
   struct Case {
     int age;
@@ -174,13 +175,13 @@ TEST_F(NewPerson, GoesOnByAScoreThatFallsWithAgeUnlessTheyNeverMoved) {
                         {40, false, 0.7}}) {
     std::vector<TentativeTrack> tentative;
     for (const double less : {0.0, 0.01}) {
-      Detection detection = Detect(Look{c.needed - less});
+      Detection detection = Detect(Observation{c.needed - less});
       detection.age = c.age;
       detection.prior.moved = c.moved;
       EXPECT_EQ(DecidePerson(false, 1.0, options_, tentative, detection), less == 0.0) << c.age;
       EXPECT_EQ(detection.decision.needed_score, c.needed) << c.age;
     }
-    // What was furniture by all that is known is looked at with suspicion from then on.
+    // A rejected track has a higher threshold from then on.
     const bool is_suspect = c.needed > options_.tracked_score;
     ASSERT_EQ(tentative.size(), is_suspect ? 1U : 0U) << c.age;
     if (is_suspect) {
@@ -189,7 +190,8 @@ TEST_F(NewPerson, GoesOnByAScoreThatFallsWithAgeUnlessTheyNeverMoved) {
   }
 }
 
-// How many things are known after one was seen, and something so much later: one if it is the same.
+// The number of tentative tracks after one object, and another after a delay: one if it is the
+// same.
 size_t CountThings(const TentativeTrack& before, Detection now, double later_s) {
   std::vector<TentativeTrack> known = {before};
   DecidePerson(false, later_s, InitiationOptions{}, known, now);
@@ -211,17 +213,17 @@ TEST_F(NewPerson, IsTheOneAStepAwayOnlyIfThatCameTooAMomentAgo) {
   EXPECT_EQ(CountThings(came, now, 0.1), 2U);
 }
 
-TEST_F(NewPerson, OfWhomLittleIsSeenIsTentativeByTheRuleThatSaysWhatIsMissing) {
-  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Look{0.95}; }), -1);
+TEST_F(NewPerson, WithALowScoreIsTentativeByTheRuleThatNamesTheThreshold) {
+  EXPECT_EQ(AcceptedIn(1, false, [](int) { return Observation{0.95}; }), -1);
   EXPECT_EQ(rule_, Rule::kFirstLook);
-  EXPECT_EQ(AcceptedIn(2, false, [](int) { return Look{0.95}; }), -1);
+  EXPECT_EQ(AcceptedIn(2, false, [](int) { return Observation{0.95}; }), -1);
   EXPECT_EQ(rule_, Rule::kFewObservations);
-  EXPECT_EQ(AcceptedIn(20, false, [](int) { return Look{0.7}; }), -1);
+  EXPECT_EQ(AcceptedIn(20, false, [](int) { return Observation{0.7}; }), -1);
   EXPECT_EQ(rule_, Rule::kLowMeanScore);
 }
 
 TEST_F(NewPerson, IsNoBoardThatScoresLow) {
-  Detection board = Detect(Look{0.3});
+  Detection board = Detect(Observation{0.3});
   board.candidate.plane = FlatPlane{0, 0, 0.4};
   std::vector<TentativeTrack> tentative;
   EXPECT_FALSE(DecidePerson(true, 0, options_, tentative, board));
@@ -232,7 +234,7 @@ TEST_F(NewPerson, IsNoBoardThatScoresLow) {
 TEST_F(NewPerson, BeyondTheMostUsersIsLeftOutByThatRule) {
   options_.max_users = 2;
   std::vector<Detection> detections;
-  for (const double score : {0.95, 0.97, 0.99}) detections.push_back(Detect(Look{score}));
+  for (const double score : {0.95, 0.97, 0.99}) detections.push_back(Detect(Observation{score}));
   std::vector<TentativeTrack> tentative;
   std::vector<Decision> decided;
   const auto people = SelectPeople(std::move(detections), true, 0, options_, tentative, decided);
@@ -243,8 +245,8 @@ TEST_F(NewPerson, BeyondTheMostUsersIsLeftOutByThatRule) {
   EXPECT_EQ(decided[0].score, 0.95);
 }
 
-// What scored low a moment ago, seen again so much later in so many of its 100 cells: whether it is
-// worth classifying.
+// A rejected candidate that is seen again after a delay in some of its 100 cells: whether it is
+// classified again.
 bool IsWorthClassifying(double score, double later_s, int cells = 100) {
   Candidate candidate;
   TentativeTrack before;
@@ -264,17 +266,17 @@ bool IsWorthClassifying(double score, double later_s, int cells = 100) {
   return !selected.empty();
 }
 
-TEST(SelectCandidates, WhatScoredLowIsClassifiedAgainOnlyLater) {
+TEST(SelectCandidates, RejectedCandidatesAreClassifiedAgainOnlyLater) {
   EXPECT_FALSE(IsWorthClassifying(0.1, 0.1));
   EXPECT_TRUE(IsWorthClassifying(0.1, 0.3));
   EXPECT_TRUE(IsWorthClassifying(0.5, 0.1));
-  // The same thing is what holds most of the larger's cells.
+  // An object is the same if most of the larger segment's cells are common.
   EXPECT_FALSE(IsWorthClassifying(0.1, 0.1, 61));
   EXPECT_TRUE(IsWorthClassifying(0.1, 0.1, 60));
 }
 
-// Three that were rejected at once: one a frame, who waited longest, and none twice before the
-// others; what is known of them is forgotten no earlier.
+// Three rejected at once: one is classified per frame, the one that waited longest, and none twice
+// before the others; none is deleted earlier.
 TEST(SelectCandidates, OfSeveralThatScoredLowOneIsClassifiedAFrame) {
   std::vector<Candidate> candidates(3);
   std::vector<TentativeTrack> tentative(3);
@@ -298,7 +300,7 @@ TEST(SelectCandidates, OfSeveralThatScoredLowOneIsClassifiedAFrame) {
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 0}));
 }
 
-// A camera of few frames a second: nothing waits for more than twice as long.
+// A camera with a low frame rate: none waits for more than twice as long.
 TEST(SelectCandidates, NothingThatScoredLowWaitsForLong) {
   std::vector<Candidate> candidates(3);
   std::vector<TentativeTrack> tentative(3);
@@ -313,7 +315,7 @@ TEST(SelectCandidates, NothingThatScoredLowWaitsForLong) {
   EXPECT_EQ(selected.size(), 3U);
 }
 
-TEST(SelectCandidates, WhatIsKnownOutlivesAClockThatRunsBackALittle) {
+TEST(SelectCandidates, TentativeTracksSurviveTimestampJitter) {
   EXPECT_EQ(depth::SceneOptions{}.jitter_s, recon::FrameSteps::kJitter_s);
   for (const auto& [later_s, is_known] : {std::pair(0.004, true), {0.006, false}}) {
     std::vector<TentativeTrack> tentative(1);
@@ -339,16 +341,16 @@ TEST(SelectCandidates, TheLargestAreClassifiedWhereThereAreTooMany) {
   EXPECT_EQ(decided[0].rule, Rule::kCandidateLimit);
 }
 
-TEST_F(NewPerson, IsHeldAgainstABodyWhereOneLookLeavesDoubt) {
+TEST_F(NewPerson, IsVerifiedByTheSurfaceFitIfOneFrameLeavesDoubt) {
   std::vector<TentativeTrack> tentative;
-  const auto is_doubtful = [&](const Look& look, bool fresh) {
+  const auto is_doubtful = [&](const Observation& look, bool fresh) {
     Detection detection = Detect(look);
     DecidePerson(fresh, 0.0, options_, tentative, detection);
     return NeedsSurfaceCheck(detection, options_);
   };
-  EXPECT_TRUE(is_doubtful(Look{0.7}, true));
-  EXPECT_FALSE(is_doubtful(Look{0.97}, true));
-  EXPECT_FALSE(is_doubtful(Look{0.7, 0, 1.0}, false));  // it entered a known room
+  EXPECT_TRUE(is_doubtful(Observation{0.7}, true));
+  EXPECT_FALSE(is_doubtful(Observation{0.97}, true));
+  EXPECT_FALSE(is_doubtful(Observation{0.7, 0, 1.0}, false));  // it entered a known room
 }
 
 TEST(Withdrawal, LeavesNoTrackAndNoPixels) {
@@ -375,7 +377,7 @@ TEST(Withdrawal, LeavesNoTrackAndNoPixels) {
   EXPECT_EQ(state.tracks.next_id, 2) << "of who comes next";
 }
 
-// Who came in the same frame and was told of keeps their id, and the next one has another.
+// A person accepted in the same frame keeps their id, and the next one has another.
 TEST(Withdrawal, LeavesOthersTheirIds) {
   PeopleState state;
   state.tracks.tracks.resize(2);

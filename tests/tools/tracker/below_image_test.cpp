@@ -1,4 +1,4 @@
-// What lies outside the image is not put before or behind the body that is in it.
+// Joints outside the image are not placed in front of or behind the visible body.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,8 +59,8 @@ void CountHands(const depth::DepthFrame& frame, Tracker& tracker, Hands* hands) 
   }
 }
 
-// Each image is a first one: nothing is known of the person. From behind the forearms might as well
-// be before the belly, so more is asked of the front.
+// Each image is a first frame, without state. From behind the forearms might as well be in front of
+// the belly, so the requirement is stricter from the front.
 TEST(BelowTheImage, AreHandsThatItsBorderCutsOff) {
   OSSA_NEEDS_MODEL();
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";

@@ -1,4 +1,4 @@
-// What no body does between two frames is not shown, though it is seen.
+// Implausible jumps between two frames are not returned, though they are observed.
 #include "tests/tools/tracker/tracked_scenes.h"
 
 namespace ossa::tracker {
@@ -14,10 +14,10 @@ TEST(BodyJump, OfOneFrameIsNotShown) {
   after = tracker.Track(Rendered({PersonAt(0.0, 2.5)}, 9).frame);
   ASSERT_EQ(jump.bodies.size(), 1U);
   ASSERT_EQ(jump.bodies[0].id, before.bodies[0].id);
-  ASSERT_GT(std::abs(jump.bodies[0].position_m.x()), 0.5 * kJump_m);  // it is seen
+  ASSERT_GT(std::abs(jump.bodies[0].position_m.x()), 0.5 * kJump_m);  // it is observed
   const auto head = recon::Joint::kHead;
   const double was_m = before.bodies[0].joints[head].position_m.x();
-  // What is not seen goes out of the space that is seen to be free.
+  // Unseen joints are moved out of visible free space.
   EXPECT_NEAR(jump.bodies[0].joints[head].position_m.x(), was_m, 0.3 * kJump_m);
   EXPECT_NE(jump.bodies[0].joints[head].state, recon::TrackingState::kTracked);
   EXPECT_NEAR(after.bodies[0].joints[head].position_m.x(), was_m, 0.05);

@@ -28,7 +28,7 @@ class CameraSearchTest : public testing::Test {
  protected:
   size_t Search(const std::vector<depth::Camera>& cameras) const {
     CameraSearch search(cameras, PlainOptions());
-    search.Look(frame_);
+    search.AddImage(frame_);
     return search.Best();
   }
 
@@ -51,10 +51,10 @@ TEST_F(CameraSearchTest, IsSureByPeopleOnly) {
   CameraSearch search({right_, WithFocal(right_, kRatio)}, PlainOptions());
   depth::DepthFrame empty = frame_;
   std::fill(empty.depth_mm.begin(), empty.depth_mm.end(), uint16_t{0});
-  for (int i = 0; i < 8; ++i) search.Look(empty);
+  for (int i = 0; i < 8; ++i) search.AddImage(empty);
   EXPECT_FALSE(search.is_sure());
   EXPECT_EQ(search.Best(), 0u);
-  for (int i = 0; i < 8; ++i) search.Look(frame_);
+  for (int i = 0; i < 8; ++i) search.AddImage(frame_);
   EXPECT_TRUE(search.is_sure());
 }
 

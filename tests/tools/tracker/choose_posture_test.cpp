@@ -1,4 +1,4 @@
-// Which of the forest's modes become a posture, and what is said of how each was seen.
+// The choice of modes for a posture, and its joint states.
 #include "recon/body/standard_body.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 #include "tools/people/joint_targets.h"
@@ -14,7 +14,7 @@ using recon::TrackingState;
 
 const depth::Camera kCamera = depth::KinectV1Camera(320, 240);
 
-// A standing person 2.5 m away, each joint proposed once and surely.
+// A standing person 2.5 m away, with one confident proposal per joint.
 class Choosing : public testing::Test {
  protected:
   void SetUp() override {
@@ -37,7 +37,7 @@ class Choosing : public testing::Test {
   recon::TrackedPosture Choose() const {
     return ChoosePosture(*model_, targets_, proposals_, context_);
   }
-  // Of a joint that one mode surely is, and another is at `other_m`.
+  // A joint with one confident mode and another at `other_m`.
   void Rival(Joint joint, const Eigen::Vector3d& other_m, double confidence) {
     ModesOf(joint).insert(ModesOf(joint).begin(), {other_m, confidence, true});
   }
@@ -49,7 +49,7 @@ class Choosing : public testing::Test {
   ChoiceContext context_;
 };
 
-TEST_F(Choosing, WhatIsSureAndSeenIsTracked) {
+TEST_F(Choosing, AConfidentVisibleModeIsTracked) {
   const recon::TrackedPosture chosen = Choose();
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     EXPECT_EQ(chosen.state[j], TrackingState::kTracked) << j;
@@ -74,18 +74,18 @@ TEST_F(Choosing, OfTwoThatFitTheLikelierIsTakenUnlessItJumps) {
   before.state.fill(TrackingState::kTracked);
   context_.before = &before;
   EXPECT_EQ(Choose().posture[Joint::kHead], standing_[Joint::kHead]);
-  before.state.fill(TrackingState::kInferred);  // who was guessed holds nothing
+  before.state.fill(TrackingState::kInferred);  // inferred joints do not constrain
   EXPECT_EQ(Choose().posture[Joint::kHead], beside_m);
 }
 
-TEST_F(Choosing, WhatIsHardlyLikelyIsNotTaken) {
+TEST_F(Choosing, AnUnlikelyModeIsNotChosen) {
   ModesOf(Joint::kHandRight)[0].confidence = 0.01;
   EXPECT_EQ(Choose().state[Index(Joint::kHandRight)], TrackingState::kNotTracked);
   ModesOf(Joint::kHandRight).clear();
   EXPECT_EQ(Choose().state[Index(Joint::kHandRight)], TrackingState::kNotTracked);
 }
 
-TEST_F(Choosing, WhatNoSurfaceSpeaksForOrLiesOutsideTheImageIsInferred) {
+TEST_F(Choosing, AModeWithoutSurfaceOrOutsideTheImageIsInferred) {
   ModesOf(Joint::kKneeLeft)[0].seen = false;
   EXPECT_EQ(Choose().state[Index(Joint::kKneeLeft)], TrackingState::kInferred);
   for (Eigen::Vector3d& joint_m : standing_.position_m) joint_m.x() += 1.3;  // half in the image
@@ -105,7 +105,7 @@ TEST_F(Choosing, WhatNoSurfaceSpeaksForOrLiesOutsideTheImageIsInferred) {
 }
 
 TEST_F(Choosing, OfTwoHandsAtOnePlaceTheWeakerIsInferred) {
-  context_.options.worst_bone = 0.0;  // so that lengths say nothing
+  context_.options.worst_bone = 0.0;  // so that lengths do not matter
   ModesOf(Joint::kWristRight)[0].position_m = standing_[Joint::kWristLeft];
   ModesOf(Joint::kWristRight)[0].confidence = 0.8;
   recon::TrackedPosture chosen = Choose();
@@ -143,7 +143,7 @@ TEST(LearnBoneLengths, LearnsOfBonesWhoseEndsAreTracked) {
   EXPECT_NEAR(lengths_m[Joint::kKneeRight], 1.2 * average_m[Joint::kKneeRight], 1e-6);
 }
 
-TEST(LearnBoneLengths, NoBoneLeavesWhatPeopleHave) {
+TEST(LearnBoneLengths, StayWithinHumanBounds) {
   recon::TrackedPosture observed;
   observed.posture = recon::StandardPosture(recon::RigPose{});
   for (Eigen::Vector3d& joint_m : observed.posture.position_m) joint_m *= 3.0;

@@ -9,8 +9,8 @@ namespace {
 constexpr auto kHand = recon::Index(recon::Joint::kHandLeft);
 constexpr auto kWrist = recon::Index(recon::Joint::kWristLeft);
 
-// Somebody whose left hand is said to be 30 cm before the body, where the camera looks through it
-// at the wall.
+// A person whose left hand is estimated 30 cm in front of the body, where the camera sees the wall
+// behind.
 struct HandInTheAir {
   tests::CapsuleRender render = Rendered({PersonAt(0.0, 2.5)});
   Body body;
@@ -57,7 +57,7 @@ TEST(HiddenJoints, ThatAreSeenAgainStayWhereTheyAreSeen) {
   EXPECT_LT((scene.Hand(1) - scene.body.raw.posture.position_m[kHand]).norm(), 0.061);
 }
 
-// A forearm that is said to be somewhere else all of a sudden: how far its wrist goes in a frame.
+// A forearm whose estimate changes suddenly: the displacement of its wrist in a frame.
 double WristGoes_m(recon::TrackingState state, const HoldOptions& hold = {}) {
   HandInTheAir scene(recon::TrackingState::kTracked);
   scene.options.reconstructor.method = "best";
@@ -84,7 +84,7 @@ TEST(HiddenJoints, DoNotLeap) {
       << "what is seen is there at once";
 }
 
-// What the forest saw as a hand, where the refinement has the hand so far aside and below.
+// A joint that the forest detects as a hand, and the refinement places aside and below.
 recon::TrackingState StateOfHandSaid(const Eigen::Vector3d& off_m) {
   HandInTheAir scene(recon::TrackingState::kTracked);
   scene.options.reconstructor.method = "best";
@@ -97,14 +97,14 @@ recon::TrackingState StateOfHandSaid(const Eigen::Vector3d& off_m) {
   return scene.body.joints[kHand].state;
 }
 
-TEST(HiddenJoints, AreThoseThatWereSomethingElse) {
+TEST(HiddenJoints, IncludeObservationsOfOtherObjects) {
   const double far_m = HoldOptions().elsewhere_m + 0.1;
   EXPECT_EQ(StateOfHandSaid({0.1, 0.0, 0.0}), recon::TrackingState::kTracked);
   EXPECT_EQ(StateOfHandSaid({far_m, 0.0, 0.0}), recon::TrackingState::kInferred);
   EXPECT_EQ(StateOfHandSaid({0.0, -far_m, 0.0}), recon::TrackingState::kInferred);
 }
 
-// A desk's corner was taken for feet, which are below the image.
+// A desk's corner was classified as feet, which are below the image.
 TEST(HiddenJoints, NothingThatLeavesOutsideOfTheImageIsTracked) {
   constexpr double kHighestFoot_m = -1.3;  // 2.5 m away the image ends above
   HandInTheAir scene(recon::TrackingState::kTracked);

@@ -1,4 +1,4 @@
-// Whom the image's border leaves little of: a unit test of the stage that reads what is observed.
+// People who are mostly outside the image: a unit test of the stage that reads the observation.
 #include <gtest/gtest.h>
 
 #include "depth/image/camera_presets.h"
@@ -12,13 +12,12 @@ using recon::TrackingState;
 
 constexpr double kFrame_s = 1.0 / 30.0;
 const Eigen::Vector3d kThere(0.4, 0.0, 2.0);
-const Eigen::Vector3d kElsewhere(0.4, 0.2, 2.0);  // in a frame nobody moves so far
+const Eigen::Vector3d kElsewhere(0.4, 0.2, 2.0);  // no person moves this far in a frame
 
-// Somebody of whom so many joints are tracked, frame by frame, as the stages of the tracker have
-// it.
+// A person with a number of tracked joints, frame by frame, as the stages of the tracker have them.
 class AtTheBorder : public testing::Test {
  protected:
-  // Whether what was observed is believed.
+  // Whether the observation is accepted.
   bool Step(const Eigen::Vector3d& hips_m, size_t tracked, unsigned clipped_edges = 1) {
     Body body;
     body.clipped_edges = clipped_edges;
@@ -54,10 +53,10 @@ class AtTheBorder : public testing::Test {
   depth::DepthFrame frame_;
   std::optional<Eigen::Vector4d> floor_;
   Person person_;
-  size_t states_ = 0;  // joints that leave as tracked
+  size_t states_ = 0;  // joints returned as tracked
 };
 
-TEST_F(AtTheBorder, WhoLosesJointsIsNotElsewhereAllOfASudden) {
+TEST_F(AtTheBorder, APersonLosingJointsDoesNotJump) {
   EXPECT_TRUE(Step(kThere, 9));
   EXPECT_EQ(states_, 9U);
   EXPECT_FALSE(Step(kElsewhere, 6));
@@ -65,7 +64,7 @@ TEST_F(AtTheBorder, WhoLosesJointsIsNotElsewhereAllOfASudden) {
   EXPECT_TRUE(Step(kThere, 6)) << "where they were";
 }
 
-TEST_F(AtTheBorder, WhoIsSeenBetterThanBeforeIsBelieved) {
+TEST_F(AtTheBorder, ABetterObservationIsAccepted) {
   EXPECT_TRUE(Step(kThere, 3));
   EXPECT_TRUE(Step(kElsewhere, 5));
   EXPECT_TRUE(Step(kThere, 19)) << "mostly seen";

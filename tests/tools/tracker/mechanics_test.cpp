@@ -10,7 +10,7 @@ namespace {
 
 using recon::Joint;
 
-TEST(Mechanics, AFootNobodySeesStaysWhereTheReconstructionPutIt) {
+TEST(Mechanics, AnUnseenFootStaysAtItsReconstruction) {
   // Two metres before the sensor, and the feet stretched out, which a hanging foot would not be.
   recon::Posture standing = recon::StandardPosture(recon::RigPose{});
   for (auto& p : standing.position_m) p.z() += 2.0;
@@ -112,7 +112,7 @@ double FootOn(std::initializer_list<double> floors_m) {
   return made ? made->posture[Joint::kFootLeft].y() - standing[Joint::kFootLeft].y() : -1.0;
 }
 
-TEST(Mechanics, TheTopOfATableIsNobodysFloor) {
+TEST(Mechanics, TheTopOfATableIsNotTheFloor) {
   EXPECT_NEAR(FootOn({0.5}), 0.0, 0.02);  // a table's: the legs behind it are not lifted onto it
   EXPECT_GT(FootOn({0.08}), 0.05);        // a little too high for the feet: they stand on it
   EXPECT_NEAR(FootOn({0.0}), 0.0, 0.02);

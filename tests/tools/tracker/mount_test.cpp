@@ -1,4 +1,4 @@
-// From under the ceiling: when a camera hangs there, and that people are found then.
+// Cameras under the ceiling: detection of the mount, and of people.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,10 +40,10 @@ struct Place {
   tools::View view;
   tools::Background background;
   uint64_t seed;
-  bool is_clip;  // else another body and camera in each image
+  bool is_clip;  // else a different body and camera in each image
 };
 
-// So many images of somebody in motion; of a clip by an Xtion, else by a Kinect v1.
+// Images of a person in motion; a clip is by an Xtion, others by a Kinect v1.
 std::vector<LabelledFrame> Shoot(const Place& place, int poses, int images) {
   tools::FrameOptions options;
   options.width = 320;
@@ -68,7 +68,7 @@ const std::vector<LabelledFrame>& CeilingClip() {
   return clip;
 }
 
-// How many of so many images, each alone, are taken for a ceiling's.
+// The number of single images that are classified as from the ceiling.
 int CountCeilings(const Place& place, int images) {
   Tracker tracker;
   int ceilings = 0;
@@ -80,7 +80,8 @@ int CountCeilings(const Place& place, int images) {
   return ceilings;
 }
 
-// A person before a wall, no floor in view: the wall is as flat and as far as a floor would be.
+// A person in front of a wall, without a visible floor: the wall is as flat and as far as a floor
+// would be.
 depth::DepthFrame BeforeAWall() {
   tests::CapsuleScene scene;
   scene.people = {PersonAt(0.0, 1.6)};
@@ -91,7 +92,7 @@ depth::DepthFrame BeforeAWall() {
 // Mean distance of joints from the truth in the clip.
 struct ClipErrors {
   double visible_m = 0.0, all_m = 0.0;
-  int refined = 0;  // frames whose joints were
+  int refined = 0;  // frames with refined joints
 };
 
 ClipErrors TrackCeilingClip(Tracker tracker) {
@@ -124,7 +125,7 @@ TEST(Mount, OfACeilingIsFoundOutInTheFirstFrameAndOneBodyWithIt) {
   EXPECT_LT(TrackCeilingClip(Tracker()).visible_m, 0.12);
 }
 
-// By the weights of level cameras a piece of a shelf is a second person.
+// With the weights of level cameras a part of a shelf is a second person.
 TEST(Mount, UnderACeilingFurnitureDoesNotBecomeAPersonByAndBy) {
   OSSA_NEEDS_CEILING();
   TrackerOptions under_ceiling;
@@ -147,7 +148,7 @@ TEST(Mount, OfACeilingHasACascadeOfItsOwnThatBringsJointsNearer) {
   EXPECT_LT(with.all_m, without.all_m);
 }
 
-// One that leaves joints where the forest has them.
+// A refinement that leaves joints where the forest has them.
 recon::RefinementCascade SilentCascade(bool from_above) {
   recon::RefinementCascade cascade;
   cascade.people = 1;
@@ -236,8 +237,8 @@ TEST(Mount, FromAboveThereIsAFloorAndItsHeightIsTheCameras) {
   EXPECT_GT(seen.floor->head<3>().dot(shot.floor->head<3>()), 0.999);
 }
 
-// The floor, by which people are known there, is farther than they are.
-TEST(Mount, UnderACeilingWhoIsNearIsFoundInNearRangeToo) {
+// The floor, which detection needs there, is farther than the people.
+TEST(Mount, UnderACeilingPeopleAreFoundInNearRangeToo) {
   OSSA_NEEDS_CEILING();
   TrackerOptions options;
   options.near_range = true;
@@ -275,7 +276,7 @@ TEST(Mount, OfACeilingFramesThatALagHoldsBackComeOnce) {
   std::vector<int64_t> told;
   depth::DepthFrame frame = CeilingClip().front().depth;
   for (frame.index = 0; frame.index < 5; ++frame.index) {
-    frame.time_s = 1.1 * static_cast<double>(frame.index);  // each is looked at
+    frame.time_s = 1.1 * static_cast<double>(frame.index);  // so that each is checked
     if (frame.index < 2) frame.depth_mm.assign(frame.pixel_count(), 0);
     if (frame.index == 2) frame.depth_mm = CeilingClip().front().depth.depth_mm;
     if (const auto late = tracker.TrackWithLag(frame)) told.push_back(late->index);
@@ -287,9 +288,10 @@ TEST(Mount, OfACeilingFramesThatALagHoldsBackComeOnce) {
   EXPECT_FALSE(tracker.DrainLag().has_value());
 }
 
-// A head near the camera with a wall far behind is as high over the wall as heads are over floors;
-// but the body goes on below the image. Without that rule some of these change over.
-TEST(Mount, OfALevelCameraWithSomebodyNearStaysLevel) {
+// A head near the camera with a wall far behind is as high above the wall as heads are above
+// floors, but the body is cut off by the lower image border. Without that rule some of these are
+// classified as from the ceiling.
+TEST(Mount, OfALevelCameraWithANearPersonStaysLevel) {
   OSSA_NEEDS_CEILING();
   EXPECT_EQ(CountCeilings({tools::View::kNear, tools::Background::kLivedIn, 5, false}, 60), 0);
 }
@@ -307,9 +309,9 @@ TEST(Mount, OfALevelCameraBeforeAWallStaysLevel) {
   EXPECT_EQ(tracker.mount(), Mount::kLevel);
 }
 
-// In a lived-in room a wall often passes for the floor of a level camera, and nobody is found
-// before it: without a look where only a floor is level two frames less. The others show people at
-// the image's border.
+// In a furnished room a wall is often detected as the floor of a level camera, and no person in
+// front of it: without checks of frames where only a floor is level two frames less. The others
+// show people at the image's border.
 TEST(Mount, OfACeilingIsFoundOutWhereAWallPassesForAFloor) {
   OSSA_NEEDS_CEILING();
   EXPECT_GE(CountCeilings({tools::View::kCeiling, tools::Background::kLivedIn, 2, false}, 24), 14);
@@ -323,7 +325,7 @@ BodyFrame LevelLook(double time_s) {
   return tracked;
 }
 
-TEST(Mount, IsAskedForOnceASecondAndNeverAfterThreeLooksAtSomebodyOnALevelFloor) {
+TEST(Mount, IsCheckedOnceASecondUntilThreeChecksShowAPersonOnALevelFloor) {
   MountFinder finder;
   BodyFrame tracked;
   EXPECT_TRUE(finder.IsDue(tracked));
@@ -348,9 +350,9 @@ TEST(Mount, IsAskedForWhereAFloorIsAllThatIsLevel) {
   }
 }
 
-// Before a wall who works there all day has no floor in view; from the ceiling the level forest is
-// often sure, too, and wrong.
-TEST(Mount, IsAskedForHoweverOftenSomebodyWithoutAFloorSeemsLevel) {
+// A person who works in front of a wall all day has no floor in view; from the ceiling the level
+// forest is often confident, too, and wrong.
+TEST(Mount, IsCheckedAsLongAsNoFloorIsSeen) {
   MountFinder finder;
   for (int i = 0; i < 5; ++i) {
     BodyFrame tracked = LevelLook(i);
@@ -360,7 +362,7 @@ TEST(Mount, IsAskedForHoweverOftenSomebodyWithoutAFloorSeemsLevel) {
   }
 }
 
-TEST(Mount, WhoGoesOnBelowTheImageCountsAtLaterLooksAtNobody) {
+TEST(Mount, CandidatesCutBelowCountInLaterChecksWithoutPeople) {
   MountFinder finder;
   const BodyFrame nobody;
   EXPECT_FALSE(finder.MayBeCutBelow(nobody));
@@ -369,7 +371,7 @@ TEST(Mount, WhoGoesOnBelowTheImageCountsAtLaterLooksAtNobody) {
   EXPECT_FALSE(finder.MayBeCutBelow(LevelLook(1.0)));
 }
 
-TEST(Mount, IsDecidedByTheFirstLookOrByThreeInARow) {
+TEST(Mount, IsDecidedByTheFirstCheckOrByThreeInARow) {
   using View = MountFinder::View;
   MountFinder first;
   EXPECT_TRUE(first.Confirm(View::kFromAbove));

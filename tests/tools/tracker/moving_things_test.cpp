@@ -1,4 +1,4 @@
-// What comes into a known room and moves, and is nobody: animals, furniture that is pushed.
+// Moving objects that enter a known room and are no people: animals, furniture that is pushed.
 #include "tests/tools/tracker/tracked_scenes.h"
 
 namespace ossa::tracker {
@@ -10,7 +10,7 @@ using tests::Capsule;
 
 constexpr double kFloor_m = -1.0;  // of tests::EmptyRoom
 
-// Things at x = 0, z = 0 on the floor at y = 0.
+// Objects at x = 0, z = 0 on the floor at y = 0.
 struct Thing {
   const char* name;
   std::vector<Box> boxes;
@@ -70,9 +70,9 @@ tests::CapsuleRender Shown(const Thing& thing, const Vector3d& place_m, int fram
   return render;
 }
 
-class MovingThing : public testing::TestWithParam<Thing> {};
+class MovingObject : public testing::TestWithParam<Thing> {};
 
-TEST_P(MovingThing, IsNobody) {
+TEST_P(MovingObject, IsNoPerson) {
   OSSA_NEEDS_MODEL();
   constexpr int kEmpty = 10, kFrames = 90;
   for (const double z_m : {2.2, 3.2}) {
@@ -89,7 +89,7 @@ TEST_P(MovingThing, IsNobody) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Things, MovingThing,
+INSTANTIATE_TEST_SUITE_P(Things, MovingObject,
                          testing::Values(Dog("Dog", 0.6), Dog("Spaniel", 0.4), OfficeChair(),
                                          Carton(), Shelf(), GymBall()),
                          testing::PrintToStringParamName());

@@ -38,7 +38,7 @@ TEST(BodyParts, AreMostlyThoseOfThePersonInView) {
   EXPECT_GT(same, 0.6 * both);
 }
 
-TEST(BodyParts, OfWhomThereIsNotAreTakenOut) {
+TEST(BodyParts, OfARevokedPersonAreCleared) {
   BodyFrame frame;
   frame.users = depth::Image<uint8_t>(3, 1);
   frame.users.data = {1, 2, 0};

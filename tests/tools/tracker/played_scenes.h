@@ -1,8 +1,11 @@
 #pragma once
-// People of capsules who play with the things of a scene, as skeletons or as depth images.
+// Capsule people who handle the objects of a scene, as skeletons or as depth images.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "tests/support/capsule_person.h"
@@ -69,13 +72,13 @@ inline recon::SkeletonFrame SkeletonsOf(const std::vector<CapsulePose>& people, 
   return skeletons;
 }
 
-/// What was seen of a scene while it was played.
+/// Observations of a simulated scene.
 struct Seen {
   double deepest_m = 0.0;         // a limb in an object
   double deepest_object_m = 0.0;  // an object in another or in the floor
   bool is_finite = true;
   std::vector<SceneEvent> events;
-  void Look(Scene& scene) {
+  void Update(Scene& scene) {
     const physics::ContactSummary& contacts = scene.world().Contacts();
     deepest_m = std::max(deepest_m, contacts.character_object_depth_m);
     deepest_object_m = std::max(deepest_object_m, contacts.object_depth_m);
@@ -91,7 +94,7 @@ struct Seen {
   }
 };
 
-/// Once per frame, after the scene has moved on.
+/// To be called once per frame, after the scene was simulated.
 using Observer = std::function<void(double time_s, const recon::SkeletonFrame&, Scene&)>;
 
 inline Seen Play(Scene& scene, const Choreography& people, double seconds,
@@ -100,7 +103,7 @@ inline Seen Play(Scene& scene, const Choreography& people, double seconds,
   for (int f = 0; f < static_cast<int>(30.0 * seconds); ++f) {
     recon::SkeletonFrame frame = SkeletonsOf(people(f / 30.0), f);
     scene.Play(frame);
-    seen.Look(scene);
+    seen.Update(scene);
     if (observe) observe(f / 30.0, frame, scene);
   }
   return seen;
@@ -149,7 +152,7 @@ struct Lifting {
   }
 };
 
-/// Somewhere; of so much diameter.
+/// A ball of this diameter, at any place.
 inline SceneObject MakeBall(double diameter_m, double mass_kg) {
   SceneObject ball;
   ball.name = "ball";
@@ -161,7 +164,7 @@ inline SceneObject MakeBall(double diameter_m, double mass_kg) {
 
 // ---- throwing
 
-/// The first swings the right arm sideways and up, towards the other, who holds the left
+/// The first person swings the right arm sideways and up, towards the other, who holds the left
 /// hand out.
 struct Throwing {
   static constexpr double kSwing_s = 1.5, kSwingEnd_s = 1.8;
@@ -195,5 +198,25 @@ struct Throwing {
     return {first, second};
   }
 };
+
+/// Largest depth of an overlap that counts as contact, metres.
+inline constexpr double kOverlap_m = 0.005;  // by hand: "a few millimetres"
+
+/// The position of an object, camera space, metres; fails the test if it does not exist.
+inline Eigen::Vector3d PlaceOf(const tracker::Scene& scene, const std::string& name) {
+  for (const tracker::SceneObjectState& object : scene.objects()) {
+    if (object.name == name) return object.position_m;
+  }
+  ADD_FAILURE() << name << " is not there";
+  return Eigen::Vector3d::Zero();
+}
+
+/// The ids of the people who hold an object, ascending; empty if it does not exist.
+inline std::vector<int> HoldersOf(const tracker::Scene& scene, const std::string& name) {
+  for (const tracker::SceneObjectState& object : scene.objects()) {
+    if (object.name == name) return object.held_by;
+  }
+  return {};
+}
 
 }  // namespace ossa::tracker::test

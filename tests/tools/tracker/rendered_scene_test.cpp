@@ -103,7 +103,7 @@ Played Track(Studio& studio, const SceneOptions& scene, int frames, const Watche
   std::map<int, recon::Posture> before;
   for (int f = 0; f < frames; ++f) {
     const BodyFrame frame = tracker.Track(studio.Shoot(f));
-    played.seen.Look(*tracker.scene());
+    played.seen.Update(*tracker.scene());
     for (const SceneObjectState& object : frame.objects) {
       EXPECT_TRUE(object.position_m.allFinite());
       played.lowest_m = std::min(played.lowest_m, HeightAboveFloor(object.position_m));

@@ -38,7 +38,7 @@ TEST(ScatteredHoles, LeaveJointsWhereTheyAre) {
   EXPECT_LT(apart_m[recon::kJointCount / 2], 0.015);  // 0.044 without it
 }
 
-TEST(ScatteredHoles, AreNobodysPixels) {
+TEST(ScatteredHoles, BelongToNoPerson) {
   OSSA_NEEDS_MODEL();
   const auto frame = WithoutEveryFifthPixel(Rendered({PersonAt(0.0, 1.8)}).frame);
   const BodyFrame bodies = Tracker(WithParts()).Track(frame);

@@ -86,7 +86,7 @@ TEST(TrackedSurface, DoubtsJointsOfWhichNoPixelsAreWhereTheyShouldBe) {
   EXPECT_LT(doubted_sum, trusted_sum);
 }
 
-TEST(TrackedSurface, OfSomebodyWhoseShapeIsKnownBeginsWithIt) {
+TEST(TrackedSurface, StartsFromAKnownShape) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options = Fitting();
   const auto told = LastOf(options, {PersonAt(0, 2.5)}).bodies.at(0).shape;

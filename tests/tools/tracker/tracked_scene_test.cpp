@@ -19,7 +19,7 @@ test::Seen Track(const SceneOptions& scene, const test::Choreography& people, in
   test::Seen seen;
   for (int f = 0; f < frames; ++f) {
     const BodyFrame frame = tracker.Track(Rendered(people(f / 30.0), f, 0.001).frame);
-    seen.Look(*tracker.scene());
+    seen.Update(*tracker.scene());
     observe(frame, *tracker.scene());
   }
   EXPECT_LT(seen.deepest_m, 0.005);
@@ -59,7 +59,7 @@ TEST(TrackedScene, OneThrowsABall) {
   EXPECT_LT(ball_m_s, 8.8);
 }
 
-TEST(TrackedScene, SomebodyDodgesABall) {
+TEST(TrackedScene, APersonDodgesABall) {
   OSSA_NEEDS_MODEL();
   SceneOptions scene;
   SceneObject ball = test::MakeBall(0.2, 0.2);

@@ -16,7 +16,7 @@
 namespace ossa::tracker {
 namespace {
 
-// What a camera sees that must be turned by so many quarters.
+// The image of a camera that must be rotated by `quarters`.
 depth::DepthFrame OfTurnedCamera(const depth::DepthFrame& upright, int quarters) {
   return depth::Turned(upright, (4 - quarters) % 4);
 }
@@ -65,7 +65,7 @@ BodyFrame LastOf(Tracker& tracker, int quarters) {
   return last;
 }
 
-// The same walk as an upright camera sees it and one that must be turned by so many quarters.
+// The same walk for an upright camera and one that must be rotated.
 std::pair<BodyFrame, BodyFrame> UprightAndTurned(TrackerOptions options, int quarters) {
   Tracker upright(options);
   options.turn = static_cast<Turn>(quarters);
@@ -73,7 +73,7 @@ std::pair<BodyFrame, BodyFrame> UprightAndTurned(TrackerOptions options, int qua
   return {LastOf(upright, 0), LastOf(turned, quarters)};
 }
 
-// The first frame is looked at in all four ways, and from the ceiling.
+// The first frame is searched in all four rotations, and for a ceiling view.
 TEST(Upright, FindingItOutCountsWithTheFramesTime) {
   TrackerOptions options;
   options.turn = Turn::kAuto;
@@ -148,7 +148,7 @@ TEST_P(TurnedCamera, IsFoundOutBeforeTheFirstFrameIsTracked) {
 
 INSTANTIATE_TEST_SUITE_P(All, TurnedCamera, testing::Values(0, 1, 2, 3));
 
-// Another recording, by a camera that hangs another way.
+// Another recording, by a camera with another rotation.
 TEST(Turn, IsFoundOutAnewAfterAReset) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options = PlainOptions();
@@ -169,56 +169,55 @@ TEST(TurnBack, BordersGoBackToo) {
   BodyFrame frame;
   frame.bodies.resize(1);
   frame.bodies[0].clipped_edges = kClippedTop | kClippedRight;
-  TurnBack(frame, 1);  // what is above now was left before
+  TurnBack(frame, 1);  // the top was left before
   EXPECT_EQ(frame.bodies[0].clipped_edges, kClippedLeft | kClippedTop);
 }
 
-// Looks at frames a second apart, in which people are seen as these scores say.
+// Searches frames a second apart, with these person scores.
 int TurnsAfter(UprightFinder& finder, int frames, std::vector<double> scores, double from_s = 0) {
   for (int i = 0; i < frames; ++i) {
     depth::DepthFrame frame;
     frame.time_s = from_s + 1.5 * i;
-    finder.Look(frame, [&](const depth::DepthFrame&, int turn) {
+    finder.Update(frame, [&](const depth::DepthFrame&, int turn) {
       return scores[static_cast<size_t>(turn)];
     });
   }
   return finder.quarters();
 }
 
-TEST(UprightFinder, ThreeLooksThatAgreeTurnTheImages) {
+TEST(UprightFinder, ThreeSearchesThatAgreeRotateTheImages) {
   UprightFinder finder;
   EXPECT_EQ(TurnsAfter(finder, 2, {0, 0, 0.9, 0}), 0);
   EXPECT_EQ(TurnsAfter(finder, 1, {0, 0, 0.9, 0}, 9), 2);
 }
 
-TEST(UprightFinder, WhoStandsUprightDecides) {
+TEST(UprightFinder, ACertainUprightPersonDecides) {
   UprightFinder finder;
   EXPECT_EQ(TurnsAfter(finder, 9, {0.85, 0.99, 0, 0}), 0);
   EXPECT_TRUE(finder.is_sure());
 }
 
-TEST(UprightFinder, NothingIsDecidedByWhoIsHardlyOne) {
+TEST(UprightFinder, LowScoresDecideNothing) {
   UprightFinder finder;
   EXPECT_EQ(TurnsAfter(finder, 9, {0, 0.7, 0, 0}), 0);
   EXPECT_EQ(TurnsAfter(finder, 9, {0.75, 0.85, 0, 0}, 20), 0);
   EXPECT_FALSE(finder.is_sure());
 }
 
-TEST(UprightFinder, AWrongTurnIsTakenBackWhenSomebodyStandsUpright) {
+TEST(UprightFinder, AWrongRotationIsUndoneByACertainUprightPerson) {
   UprightFinder finder;
   EXPECT_EQ(TurnsAfter(finder, 3, {0, 0.9, 0, 0}), 1);
   EXPECT_EQ(TurnsAfter(finder, 3, {0.9, 0, 0, 0}, 20), 0);
 }
 
-// How often somebody is looked for in `frames` at 30 Hz, in which people are seen as these scores
-// say.
-int CountLooks(UprightFinder& finder, int frames, const std::vector<double>& scores,
-               int first = 0) {
+// The number of rotations scored in `frames` at 30 Hz, with these person scores.
+int CountScored(UprightFinder& finder, int frames, const std::vector<double>& scores,
+                int first = 0) {
   int asked = 0;
   for (int i = first; i < first + frames; ++i) {
     depth::DepthFrame frame;
     frame.time_s = i / 30.0;
-    finder.Look(frame, [&](const depth::DepthFrame&, int turn) {
+    finder.Update(frame, [&](const depth::DepthFrame&, int turn) {
       ++asked;
       return scores[static_cast<size_t>(turn)];
     });
@@ -226,49 +225,49 @@ int CountLooks(UprightFinder& finder, int frames, const std::vector<double>& sco
   return asked;
 }
 
-// Each of the four ways costs as much as tracking does: only the first look is at one frame.
-TEST(UprightFinder, FramesOfARecordingShareALookWhereNobodyIsSeen) {
+// Each of the four rotations costs as much as tracking: only the first search uses a single frame.
+TEST(UprightFinder, FramesOfARecordingShareASearchWithoutPeople) {
   UprightFinder finder;
   std::vector<int> asked(60, 0);
   for (size_t i = 0; i < asked.size(); ++i) {
     depth::DepthFrame frame;
     frame.time_s = static_cast<double>(i) / 30.0;
-    finder.Look(frame, [&](const depth::DepthFrame&, int) { return ++asked[i], 0.0; });
+    finder.Update(frame, [&](const depth::DepthFrame&, int) { return ++asked[i], 0.0; });
   }
   EXPECT_EQ(asked[0], 4);
   EXPECT_EQ(std::accumulate(asked.begin() + 1, asked.end(), 0), 4);
   EXPECT_EQ(*std::max_element(asked.begin() + 1, asked.end()), 1);
 }
 
-TEST(UprightFinder, ASharedLookTurnsTheImagesToo) {
+TEST(UprightFinder, ASharedSearchRotatesTheImagesToo) {
   UprightFinder finder;
-  CountLooks(finder, 40, {0, 0, 0, 0});  // nobody comes before the second look
-  EXPECT_EQ(CountLooks(finder, 40, {0, 0, 0.9, 0}, 40), 4 + 2 * 4);
+  CountScored(finder, 40, {0, 0, 0, 0});  // no people before the second search
+  EXPECT_EQ(CountScored(finder, 40, {0, 0, 0.9, 0}, 40), 4 + 2 * 4);
   EXPECT_EQ(finder.quarters(), 2);
 }
 
-TEST(UprightFinder, LooksOnceASecondWhereNobodyIsSeen) {
+TEST(UprightFinder, SearchesOnceASecondWithoutPeople) {
   UprightFinder finder;
-  EXPECT_EQ(CountLooks(finder, 60, {0, 0, 0, 0}), 2 * 4);
+  EXPECT_EQ(CountScored(finder, 60, {0, 0, 0, 0}), 2 * 4);
 }
 
-TEST(UprightFinder, LooksAgainAtOnceWhereSomebodyIsSeenAnotherWayUp) {
+TEST(UprightFinder, SearchesAgainAtOnceAfterAPersonInAnotherRotation) {
   UprightFinder finder;
-  CountLooks(finder, 2, {0, 0, 0.9, 0});
+  CountScored(finder, 2, {0, 0, 0.9, 0});
   EXPECT_EQ(finder.quarters(), 0);
   UprightFinder sooner;
-  CountLooks(sooner, 3, {0, 0, 0.9, 0});
+  CountScored(sooner, 3, {0, 0, 0.9, 0});
   EXPECT_EQ(sooner.quarters(), 2);
 }
 
-TEST(UprightFinder, AsksNothingWhileSomebodyIsFollowed) {
+TEST(UprightFinder, SearchesNothingWhileAPersonIsTracked) {
   UprightFinder finder;
   int asked = 0;
   for (int i = 0; i < 60; ++i) {
     depth::DepthFrame frame;
     frame.time_s = i / 30.0;
-    finder.Followed(frame.time_s);
-    finder.Look(frame, [&](const depth::DepthFrame&, int) { return ++asked, 0.0; });
+    finder.NoteTracked(frame.time_s);
+    finder.Update(frame, [&](const depth::DepthFrame&, int) { return ++asked, 0.0; });
   }
   EXPECT_EQ(asked, 0);
 }

@@ -6,18 +6,18 @@
    the sensor's left, y up, z forward. Left and right of a body are the person's own. Quaternions
    are w x y z.
 
-   Calls that can fail return an ossa_status; ossa_last_error says in one line why the calling
-   thread's last failed call failed. A tracker or a source is used from one thread at a time.
+   Calls that can fail return an ossa_status; ossa_last_error gives the reason of the calling
+   thread's last failed call in one line. A tracker or a source is used by one thread at a time.
 
-   Structs grow at their ends from version to version. Whoever hands one over first sets its
-   struct_size to sizeof of it: `ossa_frame frame = {.struct_size = sizeof frame};`. Members that a
+   Structs grow at their ends from version to version. The caller sets struct_size to the sizeof of
+   a struct before passing it: `ossa_frame frame = {.struct_size = sizeof frame};`. Members that a
    program was compiled without are left alone, and members that this library does not know must be
-   zero. A struct_size that no version had is refused.
+   zero. A struct_size that no version had is an error.
 
-   Not here, but in C++ (ossa/ossa.h), Python and the command: skeleton files that are read, made
-   complete and compared, several cameras fused into one (recordings only), what is learned of a
-   sensor, and the forest's probabilities and proposals. In C++ alone: the mechanical world itself
-   and what happened in it. In the command alone: skeletons sent live to other programs. */
+   Not available here, but in C++ (ossa/ossa.h), Python and the command: reading, completing and
+   comparing skeleton files, fusing several cameras (recordings only), training on a sensor, and the
+   forest's probabilities and proposals. In C++ only: the mechanical world and its events. In the
+   command only: sending skeletons live to other programs. */
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -27,10 +27,10 @@ extern "C" {
 typedef enum {
   OSSA_OK = 0,
   OSSA_FAILED = 1,  /* see ossa_last_error */
-  OSSA_END = 2,     /* of ossa_source_read: the recording's last frame has been read; of
-                       ossa_tracker_drain_lag: all frames are out */
-  OSSA_TIMEOUT = 3, /* of ossa_source_read: no frame came in time; read again */
-  OSSA_HELD = 4 /* of ossa_tracker_track with a lag: no frame is out yet; track the next image */
+  OSSA_END = 2,     /* ossa_source_read: the recording's last frame has been read;
+                       ossa_tracker_drain_lag: all frames were returned */
+  OSSA_TIMEOUT = 3, /* ossa_source_read: no frame came in time; read again */
+  OSSA_HELD = 4     /* ossa_tracker_track with a lag: no frame yet; track the next image */
 } ossa_status;
 
 /* The joints of the Kinect SDK 1.x, in its order. */
@@ -63,20 +63,21 @@ enum { OSSA_MAX_BODIES = 6 };
 typedef enum { OSSA_NOT_TRACKED = 0, OSSA_INFERRED = 1, OSSA_TRACKED = 2 } ossa_joint_state;
 typedef enum { OSSA_POSITION_ONLY = 0, OSSA_FULLY_TRACKED = 1 } ossa_body_state;
 
-/* "0.1.0": of the library that runs, not of this header. */
+/* "0.1.0": the version of the loaded library, not of this header. */
 const char* ossa_version(void);
-/* Why the calling thread's last failed call failed; "" before the first. Valid until the next. */
+/* The reason of the calling thread's last failed call; "" before the first. Valid until the next.
+ */
 const char* ossa_last_error(void);
-/* "HipCenter" and so on, as skeleton files name joints; NULL for what is no joint. */
+/* "HipCenter" and so on, as in skeleton files; NULL for an invalid joint. */
 const char* ossa_joint_name(int32_t joint);
-/* The joint at the other end of the bone that ends in this one; -1 for OSSA_HIP_CENTER. */
+/* The parent of a joint; -1 for OSSA_HIP_CENTER. */
 int32_t ossa_joint_parent(int32_t joint);
-/* What a label of ossa_frame.parts stands for, "LU arm": L and R are the person's left and right, U
-   and W upper and lower; 0 "background", 32 "other" is held or before the person. NULL for what is
-   no label. */
+/* The body part of a label of ossa_frame.parts, "LU arm": L and R are the person's left and right,
+   U and W upper and lower; 0 "background", 32 "other" is an object held by or in front of the
+   person. NULL for an invalid label. */
 const char* ossa_part_name(int32_t label);
 
-/* ---- depth images and where they come from ---- */
+/* ---- depth images and their sources ---- */
 
 typedef struct {
   uint32_t struct_size;
@@ -85,7 +86,7 @@ typedef struct {
   const uint16_t* depth_mm; /* width x height, row by row, millimetres, 0 = no reading; not
                                mirrored (ossa_unmirror), as those of Kinect SDKs, OpenNI2 and
                                libfreenect2 are by default: people's left would be their right */
-  double time_s;            /* when it was taken; any origin */
+  double time_s;            /* time of capture; any origin */
 } ossa_depth_image;
 
 typedef struct {
@@ -115,42 +116,41 @@ typedef struct ossa_source ossa_source;
    of 16-bit PNGs. options may be NULL. NULL on failure. */
 ossa_source* ossa_source_open(const char* source, const ossa_source_options* options);
 void ossa_source_close(ossa_source* source);
-/* The next frame into *image, waiting at most timeout_ms. Its depth_mm is valid until the next read
-   of this source. A device that was unplugged times out until it is back. */
+/* Reads the next frame into *image, waiting at most timeout_ms. Its depth_mm is valid until the
+   next read of this source. A device that was unplugged times out until it is back. */
 ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth_image* image);
 
 typedef enum {
-  OSSA_NOTE_INFO = 0,   /* what was assumed or passed over */
-  OSSA_NOTE_WARNING = 1 /* what was lost, or does not belong together */
+  OSSA_NOTE_INFO = 0,   /* an assumption, or skipped data */
+  OSSA_NOTE_WARNING = 1 /* lost data, or models that do not belong together */
 } ossa_note_kind;
 
-/* What `ossa track` says of a source on its error output: the next line that nobody has taken yet,
-   from opening it and from all reads until now; NULL when there is none. So a camera that is not
-   stated is told of, and frames that cannot be read. Valid until the next call with this source.
-   kind, an ossa_note_kind, may be NULL. */
+/* The next message about a source that was not taken yet, from opening it and from all reads so
+   far, as `ossa track` prints them to stderr: such as an assumed camera, and frames that cannot be
+   read; NULL if there is none. Valid until the next call with this source. kind, an ossa_note_kind,
+   may be NULL. */
 const char* ossa_source_take_note(ossa_source* source, int32_t* kind);
-/* Frames of a recording; -1 of a device, and of a file that does not know. */
+/* The number of frames of a recording; -1 for a device, and a file that does not store it. */
 int64_t ossa_source_frame_count(const ossa_source* source);
-/* Frames that were lost until now, between those that were read. */
+/* The number of frames lost so far between those that were read. */
 int64_t ossa_source_dropped(const ossa_source* source);
 
-/* Turns back an image that is mirrored, with fx, fy, cx, cy as of that image: u = cx + fx x/z. Its
-   rows reversed go to depth_mm, width x height, which may be where they are; *image is then of
-   those, its cx with them. What ossa_source_read delivers is as the sensor looks already, unless
-   the source's images are mirrored and ossa_source_options.mirrored does not say so. */
+/* Unmirrors an image with fx, fy, cx, cy of the mirrored image: u = cx + fx x/z. Writes the
+   reversed rows to depth_mm, width x height, which may be image->depth_mm; *image then refers to
+   these, with the cx changed. Images of ossa_source_read are not mirrored, unless the source's are
+   and ossa_source_options.mirrored is not set. */
 ossa_status ossa_unmirror(ossa_depth_image* image, uint16_t* depth_mm);
 
-/* ---- between pixels and camera space, the Kinect SDK's CoordinateMapper ---- */
+/* ---- conversion of pixels and camera space, as the Kinect SDK's CoordinateMapper ---- */
 
-/* The pixel, u to the right and v down, that shows a point of camera space: of the image's camera,
-   whose depths are not read and may be NULL. Pixel centres are whole numbers; the pixel may lie
-   beside the image. Fails for a point that is not before the camera. */
+/* Projects a point of camera space to a pixel, u to the right and v down, by the image's camera;
+   depth_mm is not read and may be NULL. Pixel centres are whole numbers; the pixel may be outside
+   the image. Fails for a point that is not in front of the camera. */
 ossa_status ossa_project(const ossa_depth_image* image, const float point_m[3], float pixel_uv[2]);
-/* The point, metres, that a pixel shows at a depth along the camera's axis, above 0. */
+/* Back-projects a pixel at a depth along the camera's axis, above 0, to a point, metres. */
 ossa_status ossa_back_project(const ossa_depth_image* image, const float pixel_uv[2],
                               float depth_mm, float point_m[3]);
-/* The points of all pixels: width x height x 3 floats, row by row; 0 0 0 where there is no
-   reading. */
+/* Back-projects all pixels: width x height x 3 floats, row by row; 0 0 0 without a reading. */
 ossa_status ossa_points(const ossa_depth_image* image, float* points_m);
 
 /* ---- the tracker ---- */
@@ -163,64 +163,62 @@ typedef struct {
   int32_t max_users;     /* 1 to 6; 0: 6 */
   int32_t threads;       /* for several people; 0: 1 */
   const char* method;    /* as `ossa track --method`; NULL: best */
-  const char* smoothing; /* as `ossa track --smoothing`; NULL: what goes with the method */
-  /* Files as of `ossa track`; NULL: those that ossa ships; "none": do without. */
+  const char* smoothing; /* as `ossa track --smoothing`; NULL: the method's default */
+  /* Files as in `ossa track`; NULL: the shipped ones; "none": without. */
   const char *model, *refinement, *learned, *prior, *database;
-  /* How far images must be turned clockwise for people to stand in them: "0", "90", "180", "270",
-     or "auto": found while nobody is followed. Results stay in the unturned camera's space; NULL:
-     0. */
+  /* The clockwise rotation of the images after which people stand upright: "0", "90", "180", "270",
+     or "auto": searched while no person is tracked. Results are in the unrotated camera's space;
+     NULL: 0. */
   const char* rotate;
-  /* Where the camera is, as `ossa track --mount`: auto, level or ceiling; NULL: auto. */
+  /* The mount of the camera, as `ossa track --mount`: auto, level or ceiling; NULL: auto. */
   const char* mount;
-  /* Further files, by the same rules. surface: the body that is fitted to the depth image, for what
-     ossa_body and ossa_skin say of it; "none": no fit, which is faster. mesh: its skin. */
+  /* Further files, likewise. surface: the body that is fitted to the depth image, see ossa_body and
+     ossa_skin; "none": no fit, which is faster. mesh: its skin. */
   const char *pose_network, *surface, *mesh;
-  /* A scene file: all people in one mechanical world with its things (docs/scene.md), in place of
+  /* A scene file: all people in one mechanical world with its objects (docs/scene.md), in place of
      `physics`; NULL: no scene. */
   const char* scene;
-  /* Files of ossa_tracker_save_person: the shapes of whoever gets id 1, 2 and so on; NULL: not
-     known. */
+  /* Files of ossa_tracker_save_person: the shapes of the people with id 1, 2 and so on; NULL:
+     unknown. */
   const char* person[OSSA_MAX_BODIES];
-  int32_t lag;   /* 0 to 2: frames come so many images later, and steadier */
+  int32_t lag;   /* 0 to 2: delay of frames in images, for smoother joints */
   int32_t parts; /* not 0: ossa_frame.parts is filled; an eighth of a frame's time */
 } ossa_options;
 
 /* One joint of a skeleton. This struct does not grow. */
 typedef struct {
   float position_m[3];
-  float orientation_wxyz[4]; /* camera from bone: the y axis of the bone that ends here runs along
-                                it from the parent */
-  float confidence;          /* what was seen there, [0, 1] */
-  float reliability;         /* does it move and measure as a joint? [0, 1] */
+  float orientation_wxyz[4]; /* camera from bone: the y axis points from the parent to this joint */
+  float confidence;          /* of the observation, [0, 1] */
+  float reliability;         /* plausibility of movement and bone lengths, [0, 1] */
   int32_t state;             /* ossa_joint_state */
 } ossa_joint;
 
 typedef struct {
   uint32_t struct_size;
-  int32_t id;                          /* the same from frame to frame, from 1 */
+  int32_t id;                          /* from 1; constant while the person is tracked */
   int32_t state;                       /* ossa_body_state; of position only, all below is 0 */
-  float position_m[3];                 /* middle of the seen surface */
+  float position_m[3];                 /* centroid of the visible surface */
   uint32_t clipped_edges;              /* by the image: 1 right, 2 left, 4 top, 8 bottom */
   ossa_joint joints[OSSA_JOINT_COUNT]; /* the skeleton, by ossa_joint_id */
-  /* Each bone's turn against its parent's, as the Kinect SDK's hierarchical orientations. */
+  /* Rotation of each bone relative to its parent, the Kinect SDK's hierarchical orientations. */
   float hierarchical_wxyz[OSSA_JOINT_COUNT][4];
-  /* What each stage before made of the joints: the forest; the refinement at the depth image, the
-     same again where there was none; the method. */
+  /* The joints after earlier stages: the forest; the refinement at the depth image, equal to the
+     former without one; the method. */
   float raw_m[OSSA_JOINT_COUNT][3];
   float refined_m[OSSA_JOINT_COUNT][3];
   float reconstructed_m[OSSA_JOINT_COUNT][3];
-  float person_score; /* how surely this is a person, [0, 1] */
-  /* Lengths by all frames until now of the bones that end in the joints, [OSSA_HIP_CENTER] 0; of
-     methods that keep bones. */
+  float person_score; /* probability of being a person, [0, 1] */
+  /* Lengths, over all frames so far, of the bones that end in the joints, [OSSA_HIP_CENTER] 0; for
+     methods that keep bone lengths. */
   int32_t has_bones;
   float bones_m[OSSA_JOINT_COUNT];
-  /* The body whose surface explains the depth, in this frame; see ossa_tracker_skin. */
+  /* The body surface fitted to the depth image of this frame; see ossa_tracker_skin. */
   int32_t has_fit;
   float fitted_m[OSSA_JOINT_COUNT][3];
   float explained; /* share of the person's pixels within 3 cm of the surface */
-  float
-      fit_score; /* that, less the share of the surface through which the camera sees; 1: perfect */
-  /* How tall the person is, barefoot, by all frames until now, and its standard deviation. */
+  float fit_score; /* explained, less the share of the surface that the camera sees through */
+  /* The barefoot stature over all frames so far, and its standard deviation. */
   int32_t has_stature;
   float stature_m, stature_sigma_m;
 } ossa_body;
@@ -230,16 +228,16 @@ typedef struct {
   int32_t body_count; /* at most OSSA_MAX_BODIES; see ossa_tracker_body */
   double time_s;      /* the image's */
   int32_t has_floor;
-  float floor[4];       /* a b c d of ax + by + cz + d = 0, unit normal up */
-  float tilt_down_rad;  /* of the sensor, from the floor */
-  const uint8_t* users; /* width x height, the id of the body each pixel belongs to, 0 nobody; valid
-                           until the tracker's next frame or reset */
-  int64_t index;        /* the image's, from 0 since the tracker was created or reset */
-  const uint8_t* parts; /* likewise the body part that each pixel shows, see ossa_part_name; NULL
-                           unless asked for */
+  float floor[4];        /* a b c d of ax + by + cz + d = 0, unit normal up */
+  float tilt_down_rad;   /* of the sensor, from the floor */
+  const uint8_t* users;  /* width x height, the id of the body each pixel belongs to, 0 none; valid
+                            until the tracker's next frame or reset */
+  int64_t index;         /* the image's, from 0 since the tracker was created or reset */
+  const uint8_t* parts;  /* likewise the body part of each pixel, see ossa_part_name; NULL without
+                            ossa_options.parts */
   int32_t width, height; /* of users and parts */
-  int32_t object_count;  /* things of ossa_options.scene; see ossa_tracker_object */
-  int32_t under_ceiling; /* not 0: the camera hangs there and looks down, as far as is known now */
+  int32_t object_count;  /* objects of ossa_options.scene; see ossa_tracker_object */
+  int32_t under_ceiling; /* not 0: the camera is under the ceiling, as detected so far */
 } ossa_frame;
 
 /* The skin of a body as triangles: camera space, metres; valid until the next ossa_tracker_skin,
@@ -248,19 +246,19 @@ typedef struct {
   uint32_t struct_size;
   int32_t vertex_count;      /* 0: the person was not fitted in this frame */
   const float* vertices_m;   /* vertex_count x 3 */
-  const uint32_t* triangles; /* triangle_count x 3 vertices' numbers, counter-clockwise from
+  const uint32_t* triangles; /* triangle_count x 3 vertex indices, counter-clockwise from
                                 outside; the same in every frame */
   int32_t triangle_count;
   int32_t body_id;
 } ossa_skin;
 
-/* A thing of a scene. */
+/* An object of a scene. */
 typedef struct {
   uint32_t struct_size;
   int32_t held_by_count;
-  const char* name; /* as the scene file has it; valid until the tracker's next frame or reset */
+  const char* name; /* as in the scene file; valid until the tracker's next frame or reset */
   float position_m[3];
-  float orientation_wxyz[4]; /* camera from the thing's own axes */
+  float orientation_wxyz[4]; /* camera from the object's own axes */
   float velocity_m_s[3];
   int32_t held_by[OSSA_MAX_BODIES]; /* ids of bodies, ascending */
 } ossa_object;
@@ -281,41 +279,41 @@ typedef struct ossa_tracker ossa_tracker;
 ossa_tracker* ossa_tracker_create(const ossa_options* options);
 void ossa_tracker_destroy(ossa_tracker* tracker);
 
-/* One depth image in, its people out; images in order of time. Fails for a camera that cannot be:
-   focal lengths of 0, NaN and the like. With ossa_options.lag the frame is that of an image so many
-   before, see ossa_frame.index, and of the first images OSSA_HELD, with nobody in *frame. */
+/* Tracks one depth image; images come in order of time. Fails for an invalid camera: focal lengths
+   of 0, NaN and the like. With ossa_options.lag the frame is that of an earlier image, see
+   ossa_frame.index, and the first images return OSSA_HELD, with an empty *frame. */
 ossa_status ossa_tracker_track(ossa_tracker* tracker, const ossa_depth_image* image,
                                ossa_frame* frame);
-/* With ossa_options.lag, after the last image: the next frame that is still held; OSSA_END when all
-   are out. */
+/* With ossa_options.lag, after the last image: the next held frame; OSSA_END when all were
+   returned. */
 ossa_status ossa_tracker_drain_lag(ossa_tracker* tracker, ossa_frame* frame);
-/* With rotate "auto", before a recording: reads up to 20 s of it for which way up its camera is,
-   so that its first frames are tracked the right way, too. Open the source anew to track it. */
+/* With rotate "auto", before tracking a recording: reads up to 20 s of it to find the rotation, so
+   that its first frames are tracked upright, too. Open the source again to track it. */
 ossa_status ossa_tracker_find_upright(ossa_tracker* tracker, ossa_source* source);
-/* A body of the last frame, by its place from 0 to body_count - 1. */
+/* A body of the last frame, by its index from 0 to body_count - 1. */
 ossa_status ossa_tracker_body(const ossa_tracker* tracker, int32_t place, ossa_body* body);
-/* Its skin. Fails where there is none to pose: no surface, or one of your own without its mesh. */
+/* Its skin. Fails if there is none: no surface, or a custom one without its mesh. */
 ossa_status ossa_tracker_skin(ossa_tracker* tracker, int32_t place, ossa_skin* skin);
-/* What is known of its shape, into a file for ossa_options.person. Fails where nothing is. */
+/* Saves its shape to a file for ossa_options.person. Fails if the shape is unknown. */
 ossa_status ossa_tracker_save_person(const ossa_tracker* tracker, int32_t place, const char* path);
-/* A thing of the last frame, by its place from 0 to object_count - 1. */
+/* An object of the last frame, by its index from 0 to object_count - 1. */
 ossa_status ossa_tracker_object(const ossa_tracker* tracker, int32_t place, ossa_object* object);
-/* What `ossa track` says of the models' files on its error output, as ossa_source_take_note: so a
-   refinement is told of that was learned at another forest's joints. Valid until the next call. */
+/* The next message about the models' files, as ossa_source_take_note: such as a refinement trained
+   on another forest's joints. Valid until the next call. */
 const char* ossa_tracker_take_note(ossa_tracker* tracker, int32_t* kind);
-/* Degrees by which images are turned now, clockwise. */
+/* The current clockwise rotation of the images, degrees. */
 int32_t ossa_tracker_rotation(const ossa_tracker* tracker);
-/* Forgets everybody and everything seen: another recording begins. */
+/* Resets all state: another recording begins. */
 ossa_status ossa_tracker_reset(ossa_tracker* tracker);
 
-/* Track only these fully, the others by position; count < 0: all. */
+/* Tracks only these people fully, the others by position; count < 0: all. */
 ossa_status ossa_tracker_choose_users(ossa_tracker* tracker, const int32_t* ids, int32_t count);
 /* From the next frame on. 0: standing, all 20 joints; else seated, the upper ten. */
 ossa_status ossa_tracker_set_seated(ossa_tracker* tracker, int32_t seated);
 /* From the next frame on: a preset by name, as `ossa track --smoothing`. */
 ossa_status ossa_tracker_set_smoothing(ossa_tracker* tracker, const char* preset);
-/* From the next frame on: the SDK's filter with these parameters. Fails outside their ranges, and
-   the smoothing stays as it was. */
+/* From the next frame on: the SDK's filter with these parameters. Fails outside their ranges and
+   leaves the smoothing unchanged. */
 ossa_status ossa_tracker_set_smooth_parameters(ossa_tracker* tracker,
                                                const ossa_smooth_parameters* parameters);
 
@@ -325,22 +323,22 @@ typedef struct {
   uint32_t struct_size;
   const char* posture; /* final, reconstructed, fitted, refined or raw, as `ossa track --posture`;
                           NULL: final */
-  const char* names; /* of a .bvh or .glb, as `ossa track --bvh-names`; NULL: sdk, of a .glb vrm */
-  const char *surface, *mesh; /* of a .glb: the skin that people wear, as those of ossa_options;
-                                 mesh "none": bones alone */
+  const char* names; /* of a .bvh or .glb, as `ossa track --bvh-names`; NULL: sdk, for a .glb vrm */
+  const char *surface, *mesh; /* of a .glb: the skin, as in ossa_options; mesh "none": bones
+                                 only */
 } ossa_writer_options;
 
 typedef struct ossa_writer ossa_writer;
 
-/* A file that tracked people are written to, in the format of its extension: .jsonl, .csv, .trc,
-   .bvh or .glb, as `ossa track --out`. options may be NULL. NULL on failure. */
+/* Opens a skeleton file for writing, in the format of its extension: .jsonl, .csv, .trc, .bvh or
+   .glb, as `ossa track --out`. options may be NULL. NULL on failure. */
 ossa_writer* ossa_writer_open(const char* path, const ossa_writer_options* options);
-/* Adds the tracker's last frame. Fails when the disk is full: ossa_writer_finish keeps what fits.
- */
+/* Adds the tracker's last frame. Fails on a full disk; ossa_writer_finish keeps the complete
+   frames. */
 ossa_status ossa_writer_write(ossa_writer* writer, const ossa_tracker* tracker);
-/* Makes the file appear under its name, whole. Nothing can be written after it. */
+/* Completes the file under its name. Nothing can be written afterwards. */
 ossa_status ossa_writer_finish(ossa_writer* writer);
-/* Without ossa_writer_finish before, nothing is left. */
+/* Without ossa_writer_finish before, leaves no file. */
 void ossa_writer_close(ossa_writer* writer);
 
 #ifdef __cplusplus

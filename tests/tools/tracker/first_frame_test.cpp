@@ -1,4 +1,4 @@
-// Who is found in a single image: by the shipped forest, and by a pose network.
+// Detection in a single image by the shipped forest, and by a pose network.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace ossa::tracker {
 namespace {
 
-// A network that expects the same error of every joint, whatever it sees: 0.3 m times exp(`log`).
+// A network that expects the same error for every joint and input: 0.3 m times exp(`log`).
 std::shared_ptr<const recon::PoseNetwork> NetworkOfError(float log) {
   auto layers = recon::test::SilentLayers();
   auto& votes = layers.back().bias;
@@ -22,8 +22,8 @@ std::shared_ptr<const recon::PoseNetwork> NetworkOfError(float log) {
   return std::make_shared<const recon::PoseNetwork>(std::move(layers), 1, "test");
 }
 
-BodyFrame FirstLook(std::shared_ptr<const recon::PoseNetwork> network,
-                    const depth::DepthFrame& frame) {
+BodyFrame TrackFirstFrame(std::shared_ptr<const recon::PoseNetwork> network,
+                          const depth::DepthFrame& frame) {
   TrackerOptions options;
   options.mount = Mount::kLevel;
   options.models = ModelSet::Shipped(options.method);
@@ -31,20 +31,20 @@ BodyFrame FirstLook(std::shared_ptr<const recon::PoseNetwork> network,
   return Tracker(options).Track(frame);
 }
 
-TEST(FirstLook, WhomThePoseNetworkDoesNotKnowIsNobodyYet) {
+TEST(FirstFrame, APersonRejectedByThePoseNetworkIsNotAccepted) {
   OSSA_NEEDS_MODEL();
   const depth::DepthFrame frame = Rendered({PersonAt(0, 2.5)}).frame;
-  EXPECT_EQ(FirstLook(nullptr, frame).bodies.size(), 1U);
-  EXPECT_EQ(FirstLook(NetworkOfError(-2.0F), frame).bodies.size(), 1U);
-  const BodyFrame unknown = FirstLook(NetworkOfError(1.0F), frame);
+  EXPECT_EQ(TrackFirstFrame(nullptr, frame).bodies.size(), 1U);
+  EXPECT_EQ(TrackFirstFrame(NetworkOfError(-2.0F), frame).bodies.size(), 1U);
+  const BodyFrame unknown = TrackFirstFrame(NetworkOfError(1.0F), frame);
   EXPECT_TRUE(unknown.bodies.empty());
   EXPECT_TRUE(std::ranges::any_of(unknown.decisions.candidates, [](const auto& decision) {
     return decision.rule == people::Rule::kFirstLook && decision.area_m2 > 0.3;
   }));
 }
 
-// The network reads the same joints in either half.
-TEST(FirstLook, WhatAPoleBeforeTheMiddleLeavesOfAPersonIsOneBody) {
+// The network estimates the same joints for either half.
+TEST(FirstFrame, APersonDividedByAPoleIsOneBody) {
   OSSA_NEEDS_MODEL();
   const auto network = ModelSet::Shipped(TrackerOptions{}.method).pose_network;
   for (const double half_m : {0.02, 0.04}) {  // of the pole's width
@@ -54,13 +54,13 @@ TEST(FirstLook, WhatAPoleBeforeTheMiddleLeavesOfAPersonIsOneBody) {
       const double x_m = 1.8 * (u - frame.camera.cx) / frame.camera.fx;
       if (std::abs(x_m) < half_m) frame.depth_mm[i] = 1800;
     }
-    const BodyFrame seen = FirstLook(network, frame);
+    const BodyFrame seen = TrackFirstFrame(network, frame);
     ASSERT_EQ(seen.bodies.size(), 1U) << half_m;
     EXPECT_LT(std::abs(seen.bodies[0].position_m.x()), 0.05) << half_m;
   }
 }
 
-// Head and trunk to the waist, and across the chest an arm's width of something nearer.
+// Head and trunk to the waist, with an arm-wide occluder across the chest.
 depth::DepthFrame PersonBehindAnArm() {
   depth::DepthFrame frame = Rendered({PersonAt(0, 1.2)}).frame;
   const depth::Camera& camera = frame.camera;
@@ -75,10 +75,10 @@ depth::DepthFrame PersonBehindAnArm() {
   return frame;
 }
 
-TEST(FirstLook, WhatAnArmAcrossTheChestLeavesOfAPersonIsOneBody) {
+TEST(FirstFrame, APersonDividedByAnArmIsOneBody) {
   OSSA_NEEDS_MODEL();
   const auto network = ModelSet::Shipped(TrackerOptions{}.method).pose_network;
-  const BodyFrame seen = FirstLook(network, PersonBehindAnArm());
+  const BodyFrame seen = TrackFirstFrame(network, PersonBehindAnArm());
   ASSERT_EQ(seen.bodies.size(), 1U);
   EXPECT_GT(seen.bodies[0].person_score, people::InitiationOptions{}.person_by_pose_score);
   int joined = 0;
@@ -90,8 +90,8 @@ TEST(FirstLook, WhatAnArmAcrossTheChestLeavesOfAPersonIsOneBody) {
   EXPECT_EQ(joined, 1);
 }
 
-// Somebody, and at the height of their hips things at the same depth that reach a metre to either
-// side: one piece of surface.
+// A person, and at the height of their hips objects at the same depth that reach a metre to either
+// side: one connected region.
 depth::DepthFrame PersonBetweenThings() {
   depth::DepthFrame frame = Rendered({PersonAt(0, 2.5)}).frame;
   const depth::Camera& camera = frame.camera;
@@ -108,8 +108,7 @@ depth::DepthFrame PersonBetweenThings() {
   return frame;
 }
 
-// The largest piece that the forest was asked about last, where what is cut around a head needs
-// such a score.
+// The largest segment of the last classification, where crops around heads need such a score.
 people::Detection LargestPiece(const depth::DepthFrame& frame, double head_piece_score) {
   const ModelSet models = ModelSet::Shipped(TrackerOptions{}.method);
   const auto targets = people::FindJointTargets(*models.forest, models.forest_file);
@@ -135,7 +134,7 @@ double Width_m(const people::Detection& detection) {
   return region.high_m.x() - region.low_m.x();
 }
 
-TEST(FirstLook, WhatIsNoPersonAsItStandsIsCutAroundItsHead) {
+TEST(FirstFrame, ARejectedCandidateIsCroppedAroundItsHead) {
   OSSA_NEEDS_MODEL();
   constexpr double kNever = 1.1;
   const depth::DepthFrame frame = PersonBetweenThings();
