@@ -187,7 +187,7 @@ void LimitTrackCount(const std::vector<int>& ids, std::vector<Track>& tracks) {
 }
 
 // Deletes tracks that proved to be parts of another person, so that they claim no cells.
-void ForgetAbsorbed(const std::vector<Detection>& people, const std::vector<int>& ids,
+void DeleteAbsorbed(const std::vector<Detection>& people, const std::vector<int>& ids,
                     std::vector<Track>& tracks) {
   std::vector<int> absorbed;
   for (const Detection& person : people) {
@@ -246,7 +246,7 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
     UpdateTrack(scene.grid, people[p], person_of, static_cast<int>(p), time_s, options, track);
     ids.push_back(track.id);
   }
-  ForgetAbsorbed(people, ids, tracks);
+  DeleteAbsorbed(people, ids, tracks);
   std::erase_if(tracks,
                 [&](const Track& track) { return IsForgotten(track, time_s, options.reidentify); });
   LimitTrackCount(ids, tracks);

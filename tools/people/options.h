@@ -247,8 +247,8 @@ struct InitiationOptions {
   // A track this young: a chance detection of another object has a low mean.
   double early_track_score = 0.4;  // score
   int early_age = 12;              // detections
-  // Without any movement after still_age observations: most likely furniture. Tracks need less than
-  // candidates, because a person behind a static occluder seems not to move.
+  // Most likely furniture: candidates that were rejected or never foreground; tracks without any
+  // movement after still_age observations (less, as a person behind a chair may seem not to move).
   double still_candidate_score = 0.75;  // score
   double still_track_score = 0.7;       // score
   int still_age = 10;                   // detections

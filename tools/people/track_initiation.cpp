@@ -122,7 +122,7 @@ struct Requirement {
 
 // The threshold for a new person in a single frame. Furniture may score high once, but seldom has
 // the shape of a head as well; the pose network separates them where it was applied. Outside fresh
-// scenes only foreground can be accepted in one frame.
+// scenes only foreground and returning people are accepted in one frame.
 Requirement RequireInFirstFrame(const Detection& detection, bool fresh_scene,
                                 const InitiationOptions& options) {
   const Candidate& candidate = detection.candidate;

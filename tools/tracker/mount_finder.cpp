@@ -26,7 +26,7 @@ std::vector<uint8_t> FindCutBelow(const depth::Scene& scene, const MountOptions&
 
 }  // namespace
 
-bool ShowsSomebody(const BodyFrame& tracked) {
+bool ShowsPerson(const BodyFrame& tracked) {
   const auto joined = std::ranges::count(tracked.decisions.candidates, people::Rule::kJoinedPieces,
                                          &people::Decision::rule);
   return std::ssize(tracked.bodies) > joined;
@@ -36,7 +36,7 @@ bool MountFinder::IsDue(const BodyFrame& tracked) {
   const double since_s = tracked.time_s - checked_s_;
   if (is_level_ || (since_s >= 0 && since_s < options_.every_s)) return false;
   checked_s_ = tracked.time_s;
-  const bool seems_level = tracked.floor && ShowsSomebody(tracked);
+  const bool seems_level = tracked.floor && ShowsPerson(tracked);
   if (seems_level) {
     Confirm(View::kLevel);
     is_level_ = ++level_checks_ >= options_.agreeing;
@@ -45,7 +45,7 @@ bool MountFinder::IsDue(const BodyFrame& tracked) {
 }
 
 bool MountFinder::MayBeCutBelow(const BodyFrame& tracked) const {
-  return checks_ > 0 && !ShowsSomebody(tracked);
+  return checks_ > 0 && !ShowsPerson(tracked);
 }
 
 bool MountFinder::Confirm(View seen) {

@@ -25,7 +25,7 @@ struct MountOptions {
 
 /// Whether the level tracking of a frame is evidence for a level camera: it has a person who was
 /// not joined from pieces, which also happens from above.
-bool ShowsSomebody(const BodyFrame& tracked);
+bool ShowsPerson(const BodyFrame& tracked);
 
 /// Decides when to check for a camera under the ceiling and when the result is certain: not in
 /// every frame, and never again after a person on a floor was tracked by the level models in

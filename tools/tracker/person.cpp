@@ -227,7 +227,7 @@ bool IsSeatedJoint(recon::Joint joint) {
          recon::Index(joint) <= recon::Index(recon::Joint::kHandRight);
 }
 
-void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
+void DeleteGone(const std::vector<int>& in_view, double time_s, double forget_s,
                 std::map<int, Person>& people) {
   std::erase_if(people, [&](const auto& entry) {
     const auto& [id, person] = entry;

@@ -87,7 +87,7 @@ struct Person {
 /// Deletes people out of view for more than `forget_s`, and people not in view (`in_view`: ids) who
 /// were last seen later than now: time went back, so in this recording the id may be another
 /// person's.
-void ForgetGone(const std::vector<int>& in_view, double time_s, double forget_s,
+void DeleteGone(const std::vector<int>& in_view, double time_s, double forget_s,
                 std::map<int, Person>& people);
 
 /// What the stages from detection to skeleton read, the same for all people and frames.

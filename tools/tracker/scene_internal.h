@@ -35,7 +35,7 @@ struct HandMemory {
 
   void See(double time_s, const Eigen::Vector3d& at_m);
   /// The person was moved to another place; holds are kept.
-  void ForgetMotion();
+  void ResetMotion();
   /// The slope of a line fitted through the last positions, robust against a single outlier.
   Eigen::Vector3d SteadyVelocity_m_s() const;
 };
@@ -75,14 +75,14 @@ struct Scene::Impl {
   void FollowPeople(const std::vector<ScenePerson>& people, bool gap);
   void Make(SceneActor& actor, const recon::Posture& start);
   bool IsElsewhere(SceneActor& actor, const recon::Posture& seen) const;
-  void ForgetGone();
+  void DeleteGone();
   void WatchHands(double dt_s);
   // scene_objects.cpp
   void FollowFloor(const std::optional<Eigen::Vector4d>& seen, double dt_s);
   std::optional<Eigen::Isometry3d> OriginOf(const SceneObject& object) const;
   void PutObjects();
   /// Whether the object intersects a person.
-  bool IsInSomebody(int object) const;
+  bool IntersectsPerson(int object) const;
   void Put(const SceneObject& object, ScenePlaced& placed, const Eigen::Isometry3d& origin);
   void UpdateObjectStates();
   // scene_rules.cpp

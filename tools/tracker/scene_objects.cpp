@@ -77,7 +77,7 @@ void Scene::Impl::PutObjects() {
     const auto origin = OriginOf(object);
     if (!origin) continue;
     Put(object, placed[object.name], *origin);
-    if (there == placed.end() && IsInSomebody(placed[object.name].object)) {
+    if (there == placed.end() && IntersectsPerson(placed[object.name].object)) {
       world.RemoveObject(placed[object.name].object);  // retried in the next frame
       placed.erase(object.name);
     } else if (there == placed.end()) {
@@ -86,7 +86,7 @@ void Scene::Impl::PutObjects() {
   }
 }
 
-bool Scene::Impl::IsInSomebody(int object) const {
+bool Scene::Impl::IntersectsPerson(int object) const {
   constexpr int kPoints = 5;  // along a bone: the longest, 45 cm, is as thick as they are apart
   for (const auto& [id, actor] : actors) {
     const physics::Segments segments = physics::ComputeSegments(actor.bones.lengths_m(), 0.0, 0.0);

@@ -111,7 +111,7 @@ void Scene::Impl::FollowPeople(const std::vector<ScenePerson>& people, bool gap)
                   recon::FilledFrom(world.StateOf(actor.character).posture, person.seen),
                   person.orientation);
       actor.far_frames = 0;
-      for (auto& [joint, hand] : actor.hands) hand.ForgetMotion();
+      for (auto& [joint, hand] : actor.hands) hand.ResetMotion();
     }
     recon::JointArray<double> trust = person.trust;
     for (size_t j = 0; j < kJointCount; ++j) {
@@ -120,10 +120,10 @@ void Scene::Impl::FollowPeople(const std::vector<ScenePerson>& people, bool gap)
     world.SetTarget(actor.character, person.seen, trust, person.orientation);
     actor.seen = recon::FilledFrom(world.StateOf(actor.character).posture, person.seen);
   }
-  ForgetGone();
+  DeleteGone();
 }
 
-void Scene::Impl::ForgetGone() {
+void Scene::Impl::DeleteGone() {
   std::erase_if(actors, [this](const auto& entry) {
     if (now_s - entry.second.seen_s <= kForget_s) return false;
     world.RemoveCharacter(entry.second.character);
@@ -138,7 +138,7 @@ void HandMemory::See(double time_s, const Vector3d& at_m) {
   seen.push_back({time_s, at_m});
 }
 
-void HandMemory::ForgetMotion() {
+void HandMemory::ResetMotion() {
   made_m.reset();
   seen.clear();
   for (Vector3d* velocity : {&made_velocity_m_s, &seen_velocity_m_s, &fastest_m_s}) {

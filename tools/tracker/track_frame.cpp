@@ -96,7 +96,7 @@ bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyF
   from_above.candidates.overhead->min_head_m = mount.min_head_m;
   using View = MountFinder::View;
   if (!MayBeFromAbove(frame, mount_finder.MayBeCutBelow(tracked), from_above, mount)) {
-    return mount_finder.Confirm(ShowsSomebody(tracked) ? View::kLevel : View::kUnknown);
+    return mount_finder.Confirm(ShowsPerson(tracked) ? View::kLevel : View::kUnknown);
   }
   if (!ceiling_forest) ceiling_forest = LoadCeilingForest(models);
   const auto above_targets = people::FindJointTargets(*ceiling_forest, models.ceiling_file);
@@ -109,10 +109,10 @@ void Tracker::Impl::FindUpright(const depth::DepthFrame& frame) {
   const bool changed = upright.Update(frame, [this](const depth::DepthFrame& looked, int quarters) {
     return ScorePeople(depth::Turned(looked, quarters), {model, targets}, people_options);
   });
-  if (changed) ForgetAll();
+  if (changed) DeleteTracks();
 }
 
-void Tracker::Impl::ForgetAll() {
+void Tracker::Impl::DeleteTracks() {
   persons.clear();
   people_state = {};
 }
@@ -133,7 +133,7 @@ Body Tracker::Impl::MakeBody(const depth::DepthFrame& frame, const people::Perso
 
 // Initialises a new person with known shape and bone lengths. The refinement cascade estimates the
 // bone lengths that the method uses.
-void Tracker::Impl::Introduce(int id, Person& person) const {
+void Tracker::Impl::InitializePerson(int id, Person& person) const {
   person.id = id;
   const auto shape = options.shapes.find(id);
   if (shape != options.shapes.end()) person.shape = shape->second;
@@ -147,11 +147,11 @@ std::vector<Person*> Tracker::Impl::RememberPersons(const std::vector<Body>& bod
                                                     double time_s) {
   std::vector<int> ids;
   for (const Body& body : bodies) ids.push_back(body.id);
-  ForgetGone(ids, time_s, people_options.association.reidentify.forget_occluded_s, persons);
+  DeleteGone(ids, time_s, people_options.association.reidentify.forget_occluded_s, persons);
   std::vector<Person*> in_view;
   for (const int id : ids) {
     Person& person = persons[id];
-    if (person.id != id) Introduce(id, person);
+    if (person.id != id) InitializePerson(id, person);
     person.seen_s = time_s;
     in_view.push_back(&person);
   }

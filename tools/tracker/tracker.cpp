@@ -233,7 +233,7 @@ void Tracker::SetMode(TrackingMode mode) { impl_->skeleton.mode = mode; }
 void Tracker::SetTurn(Turn turn) {
   if (std::exchange(impl_->options.turn, turn) == turn) return;
   impl_->upright = {};
-  impl_->ForgetAll();
+  impl_->DeleteTracks();
 }
 void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
   smoothing.Check();
@@ -247,7 +247,7 @@ void Tracker::Reset() {
   impl_->mount_finder = {};
   impl_->upright = {};
   impl_->lagged = impl_->NothingLagged();
-  impl_->ForgetAll();
+  impl_->DeleteTracks();
   if (impl_->scene) impl_->scene->Reset();
 }
 Scene* Tracker::scene() { return impl_->scene ? &*impl_->scene : nullptr; }

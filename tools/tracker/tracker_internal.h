@@ -50,11 +50,11 @@ struct Tracker::Impl {
   }
   bool KeepsParts() const { return options.keep_parts || options.keep_probabilities; }
   void FindUpright(const depth::DepthFrame& frame);
-  void ForgetAll();
+  void DeleteTracks();
   Body MakeBody(const depth::DepthFrame& frame, const people::Person& person) const;
   void WithdrawUnlikeBodies(const std::vector<people::Person>& seen, BodyFrame& result);
   std::vector<Person*> RememberPersons(const std::vector<Body>& bodies, double time_s);
-  void Introduce(int id, Person& person) const;
+  void InitializePerson(int id, Person& person) const;
 };
 
 }  // namespace ossa::tracker

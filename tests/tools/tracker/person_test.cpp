@@ -11,7 +11,7 @@ std::vector<int> IdsLeft(const std::vector<int>& in_view, double time_s) {
     people[id].id = id;
     people[id].seen_s = seen_s;
   }
-  ForgetGone(in_view, time_s, 5.0, people);
+  DeleteGone(in_view, time_s, 5.0, people);
   std::vector<int> ids;
   for (const auto& [id, person] : people) ids.push_back(id);
   return ids;

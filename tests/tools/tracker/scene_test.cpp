@@ -105,7 +105,7 @@ TEST(HandMemory, ForgetsHowItMovedAndNotHowItHolds) {
   hand.made_m = Vector3d::UnitY();
   for (int f = 0; f < 4; ++f) hand.See(f / 30.0, Vector3d(0.1 * f, 0, 0));
   ASSERT_GT(hand.SteadyVelocity_m_s().x(), 2.9);
-  hand.ForgetMotion();
+  hand.ResetMotion();
   EXPECT_EQ(hand.held_at_m, 0.07);
   EXPECT_EQ(hand.taken_by.near_m, 0.3);
   EXPECT_EQ(hand.away_s, 0.0);

@@ -23,6 +23,6 @@
 #include "recon/methods/reconstruct_sequence.h"  // methods over recorded skeletons
 #include "recon/skeleton_sequence.h"             // a recording of skeletons
 #include "tools/tracker/model_set.h"             // ModelSet: everything learned
-#include "tools/tracker/scene.h"                 // Scene: people and things in one world
+#include "tools/tracker/scene.h"                 // Scene: people and objects in one world
 #include "tools/tracker/skeleton_record.h"       // from BodyFrame to skeleton files
 #include "tools/tracker/tracker.h"               // Tracker, Version
