@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPartial = ".partial-";
 constexpr std::string_view kHexDigits = "0123456789abcdef";
-constexpr size_t kRandomBytes = 6;  // twelve digits: chance hits no name twice; by hand
+constexpr size_t kRandomBytes = 6;  // twelve digits: collisions are negligible; by hand
 
-// Two digits a byte.
+// Two hexadecimal digits per byte.
 std::string HexOf(std::span<const unsigned char> bytes) {
   std::string text;
   for (const unsigned char byte : bytes) {
@@ -38,18 +38,18 @@ std::string HexOf(std::span<const unsigned char> bytes) {
   return text;
 }
 
-// The temporary name without its random end: the file's own and `.partial-`, as long as the file
-// system takes all of it.
+// The temporary name without its random suffix: the file name and `.partial-`, shortened to what
+// the file system allows.
 fs::path TemporaryNameBegin(const fs::path& final_path) {
   std::string name = final_path.filename().string();
   const size_t added = kPartial.size() + 2 * kRandomBytes;
   const size_t room = LongestNameIn(FolderOf(final_path));
-  // A name that is too long itself is refused as it stands.
+  // A name that is too long itself is left as it is, and refused later.
   if (name.size() <= room && name.size() + added > room) name = ShortenName(name, room - added);
   return final_path.parent_path() / name.append(kPartial);
 }
 
-// Nobody can know it before: in a folder that others may write to, nobody has put anything there.
+// An unpredictable name: in a folder that others may write to, nobody can have placed a file there.
 fs::path RandomNameFor(const fs::path& final_path) {
   std::array<unsigned char, kRandomBytes> random{};
   if (getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size())) {
@@ -58,7 +58,7 @@ fs::path RandomNameFor(const fs::path& final_path) {
   return TemporaryNameBegin(final_path) += HexOf(random);
 }
 
-// Whether RandomNameFor made such a name of some file's.
+// Whether the name looks like one of RandomNameFor.
 bool IsRandomName(const std::string& name) {
   constexpr size_t kEnd = kPartial.size() + 2 * kRandomBytes;
   if (name.size() <= kEnd) return false;
@@ -67,20 +67,20 @@ bool IsRandomName(const std::string& name) {
          end.find_first_not_of(kHexDigits, kPartial.size()) == std::string_view::npos;
 }
 
-// A new file of nobody else's, locked; -1 with errno when there can be none.
+// Creates a new file exclusively and locks it; -1 with errno on failure.
 int OpenNew(const fs::path& final_path, fs::path* path) {
-  constexpr int kAttempts = 100;  // by hand: names that are taken are as rare as chance makes them
+  constexpr int kAttempts = 100;  // by hand: taken names are very unlikely
   for (int k = 0; k < kAttempts; ++k) {
     *path = RandomNameFor(final_path);
     const int file = open(path->c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0 && errno == EEXIST) continue;
-    if (file >= 0) flock(file, LOCK_EX | LOCK_NB);  // not every file system knows locks
+    if (file >= 0) flock(file, LOCK_EX | LOCK_NB);  // not every file system supports locks
     return file;
   }
   return -1;
 }
 
-// Whether nobody holds the lock of a file that was written under a temporary name.
+// Whether a temporary file is a leftover: no process holds its lock.
 bool IsLeft(const fs::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;
@@ -89,7 +89,7 @@ bool IsLeft(const fs::path& path) {
   return free;
 }
 
-// Where a chain of symbolic links leads, also to where nothing is yet.
+// The target of a chain of symbolic links, which need not exist.
 fs::path FollowLinks(fs::path path) {
   constexpr int kMostLinks = 40;  // the kernel's own limit; by definition of MAXSYMLINKS
   std::error_code error;
@@ -97,13 +97,12 @@ fs::path FollowLinks(fs::path path) {
     if (k == kMostLinks) {
       throw InputError(path.string() + ": cannot be written: " + std::strerror(ELOOP));
     }
-    path = path.parent_path() / fs::read_symlink(path);  // an absolute one stands alone
+    path = path.parent_path() / fs::read_symlink(path);  // an absolute link replaces the path
   }
   return path;
 }
 
-// Waits until the disk has a file or a folder; false with errno when it failed. Not every file
-// system knows how.
+// fsync of a file or folder; false with errno on failure. Not every file system supports it.
 bool Sync(int file) {
   int status = fsync(file);
   while (status != 0 && errno == EINTR) status = fsync(file);
@@ -141,7 +140,7 @@ AtomicFile::AtomicFile(fs::path final_path)
   }
   file_ = OpenNew(final_path_, &temporary_path_);
   if (file_ < 0) throw InputError(name_ + ": cannot be written: " + std::strerror(errno));
-  // Not every file system knows permissions.
+  // Not every file system supports permissions.
   if (fs::exists(there)) fchmod(file_, static_cast<mode_t>(there.permissions()) & 0777U);
   stream_ = std::make_unique<Stream>(file_);
 }
@@ -208,7 +207,7 @@ void AtomicFile::CutTo(uint64_t size) {
   }
 }
 
-void AtomicFile::TakeOut(uint64_t begin, uint64_t count) {
+void AtomicFile::RemoveBytes(uint64_t begin, uint64_t count) {
   Flush();
   std::vector<char> bytes(size_t{1} << 20);
   auto to = static_cast<off_t>(begin);
@@ -230,7 +229,8 @@ void AtomicFile::Rename() {
   committed_ = true;
 }
 
-// A machine that loses its power must not have the new name without the bytes, nor forget the name.
+// Syncs file and folder: after a power loss the new name must not exist without its bytes, nor be
+// lost.
 void AtomicFile::Commit() {
   Flush();
   if (!Sync(file_)) throw DiskFull(name_ + ": writing failed: " + std::strerror(errno));
@@ -253,7 +253,7 @@ void SyncFiles(const fs::path& folder) {
        !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
     if (!it->is_regular_file(error)) continue;
     const int file = open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-    if (file < 0) continue;  // nothing that we just wrote
+    if (file < 0) continue;  // not written by us
     const bool synced = Sync(file);
     const int reason = errno;
     close(file);

@@ -10,26 +10,26 @@
 
 namespace ossa {
 
-/// What was to be written did not fit: the disk is full, or the file may grow no more.
+/// The data did not fit: the disk is full, or the file reached its size limit.
 struct DiskFull : InputError {
   using InputError::InputError;
 };
 
-/// A file that appears under its final name only when complete: written beside it under a temporary
-/// name, NAME.partial- and random digits (of a NAME that would be too long with them its begin and
-/// a digest), renamed by Commit(), removed when destroyed without it.
-/// What a process that was killed left stays under that name. Throws InputError when the place
-/// cannot be written (no such folder, disk full), or a folder or a device has that name: a rename
-/// would put a file in a device's place. A symbolic link stays one and what it leads to is written;
-/// a file that may not be written to is not replaced, though its folder would allow it; one that
-/// is replaced hands its permissions on.
+/// A file that appears under its final name only when complete. It is written beside it under a
+/// temporary name, NAME.partial- and random digits (a NAME that would become too long is shortened,
+/// with a digest), renamed by Commit(), and removed by the destructor without it. The leftover of a
+/// killed process stays under the temporary name. Throws InputError if the location is not writable
+/// (no such folder, disk full), or a folder or device has that name: a rename would replace the
+/// device by a file. A symbolic link is kept and its target is written. A write-protected file is
+/// not replaced, although its folder would allow it. A replaced file passes on its permissions.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);
-  /// Throws the constructor's InputError; leaves nothing. For what is written after hours of work.
+  /// Throws the constructor's InputError, without leaving a file. For output that is written after
+  /// hours of work.
   static void CheckWritable(const std::filesystem::path& final_path);
-  /// What was to become this file, of processes that were killed: nobody writes it any more. In
-  /// order of their names. On file systems that know no locks nobody can tell, and there are none.
+  /// Leftovers of this file from killed processes: no process writes them any more. Sorted by name.
+  /// Empty on file systems without locks, where leftovers cannot be recognised.
   static std::vector<std::filesystem::path> FindLeftovers(const std::filesystem::path& final_path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -38,33 +38,32 @@ class AtomicFile {
   std::ostream& stream();
   const std::filesystem::path& temporary_path() const { return temporary_path_; }
 
-  /// Throws DiskFull when something could not be written: for what is written for hours, so that a
-  /// full disk is known before the end.
+  /// Throws DiskFull if a write has failed. For files written over hours, so that a full disk is
+  /// noticed early.
   void Check();
-  /// Flushes and checks: what was written is in the file now, and stays if what follows does not
-  /// fit or the process is killed. (A machine that loses its power may lose it yet.)
+  /// Flushes and checks: the data so far are in the file, and stay there if later writes fail or
+  /// the process is killed. (A power loss may still lose them.)
   void Flush();
-  /// Forgets what was written from byte `size` on, and that writing failed: writing goes on there.
-  /// Throws InputError when not all before it is in the file; only what was flushed surely is.
+  /// Truncates the file to `size` bytes and clears write errors; writing continues there. Throws
+  /// InputError if the file is shorter; only flushed bytes are certain to be in it.
   void CutTo(uint64_t size);
-  /// Takes `count` bytes out of the file at `begin`: what follows them moves there. Of a head that
-  /// came out shorter than the room that was left for it. Flushes and checks; writing goes on at
-  /// the end.
-  void TakeOut(uint64_t begin, uint64_t count);
-  /// Flushes, checks, waits until the disk has it, and renames; the object is finished afterwards.
+  /// Removes `count` bytes at `begin` and moves up the rest: for a header shorter than the space
+  /// reserved for it. Flushes and checks; writing continues at the end.
+  void RemoveBytes(uint64_t begin, uint64_t count);
+  /// Flushes, checks, syncs to disk, and renames. The object must not be used afterwards.
   void Commit();
-  /// The same without waiting for the disk: of one of thousands (images of a data set), whose
-  /// folder is whole when another file, written after SyncFiles(), says so.
+  /// As Commit without syncing: for one of thousands of files (images of a data set), whose folder
+  /// is complete when another file, written after SyncFiles(), says so.
   void CommitOneOfMany();
 
  private:
   struct Stream;
   void Rename();
 
-  std::string name_;  // as it was given, for messages
+  std::string name_;  // as given, for messages
   std::filesystem::path final_path_;
   std::filesystem::path temporary_path_;
-  int file_ = -1;  // locked: says to others that it has somebody who writes it
+  int file_ = -1;  // locked while it is being written
   std::unique_ptr<Stream> stream_;
   bool committed_ = false;
 };
@@ -72,7 +71,7 @@ class AtomicFile {
 /// The folder that a file is in, "." where the path names none.
 std::filesystem::path FolderOf(const std::filesystem::path& path);
 
-/// Waits until the disk has all files of a folder, those in its sub-folders too. Throws DiskFull.
+/// Syncs all files of a folder and its sub-folders to disk. Throws DiskFull.
 void SyncFiles(const std::filesystem::path& folder);
 
 }  // namespace ossa

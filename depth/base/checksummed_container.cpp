@@ -27,9 +27,9 @@ uint64_t Checksum(std::span<const std::byte> bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-// Everything but the checksum: `bytes` begin with the header, if there are so many, and are
-// followed by more up to `size`. What follows need not be read to refuse another kind of file,
-// which may not even fit into memory.
+// The header, checked except for the checksum: `bytes` start with it, if long enough, and are
+// followed by more, `size` in total. Files of another kind are refused by their header alone; they
+// may not even fit into memory.
 Header CheckedHeader(std::span<const std::byte> bytes, uint64_t size, const std::string& name,
                      const ContainerFormat& format) {
   const std::string what(format.what);
@@ -63,7 +63,7 @@ void CheckPayload(std::span<const std::byte> payload, const Header& header, cons
   }
 }
 
-// The file's next bytes, fewer where it ends.
+// Reads the next bytes of the file; fewer at its end.
 std::vector<std::byte> NextBytes(std::ifstream& file, size_t at_most) {
   auto bytes = MakeLargeVector<std::byte>(at_most);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(at_most));

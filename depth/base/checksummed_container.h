@@ -11,9 +11,8 @@
 
 namespace ossa {
 
-/// A checksummed container, the frame around every binary file ossa owns: 8 bytes of magic, a
-/// byte-order mark, the format's version, the payload's length and its XXH3 checksum, then the
-/// payload (little-endian).
+/// A checksummed container, the frame of all our binary files: 8 bytes of magic, byte-order mark,
+/// format version, payload length and XXH3 checksum, then the payload (little-endian).
 struct ContainerFormat {
   std::array<char, 8> magic{};
   uint32_t version = 1;
@@ -27,8 +26,8 @@ void WriteContainer(const std::filesystem::path& path, const ContainerFormat& fo
 /// True when the file begins with the format's magic; its version and the rest may still be wrong.
 bool IsContainer(const std::filesystem::path& path, const ContainerFormat& format);
 
-/// The payload's checksum as the header has it, by which a file is known again whatever it is
-/// called. Throws InputError where the file has no header.
+/// The payload's checksum in the header, which identifies a file regardless of its name. Throws
+/// InputError if the file has no header.
 uint64_t ReadContainerChecksum(const std::filesystem::path& path);
 
 /// Reads and verifies the frame; returns the payload. Throws InputError that names the file and the
@@ -36,15 +35,15 @@ uint64_t ReadContainerChecksum(const std::filesystem::path& path);
 std::vector<std::byte> ReadContainer(const std::filesystem::path& path,
                                      const ContainerFormat& format);
 
-/// The format as it was when the file was written, where files of versions from `oldest` on are
-/// still read; `newest` where the file says anything else, for ReadContainer to refuse.
+/// The format with the version of the file, if it is `oldest` or newer; `newest` for other files,
+/// which ReadContainer then refuses.
 ContainerFormat ReadContainerFormat(const std::filesystem::path& path,
                                     const ContainerFormat& newest, uint32_t oldest);
-/// The same, of a file's bytes.
+/// As above, for the bytes of a file.
 ContainerFormat ReadContainerFormat(std::span<const std::byte> bytes, const ContainerFormat& newest,
                                     uint32_t oldest);
 
-/// As ReadContainer, of bytes already in memory (`name` stands for the file in messages).
+/// As ReadContainer, for bytes in memory (`name` stands for the file in messages).
 std::vector<std::byte> ReadContainerBytes(std::span<const std::byte> bytes, const std::string& name,
                                           const ContainerFormat& format);
 
@@ -78,7 +77,7 @@ class PayloadWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Takes them out again. Every count is checked against the bytes left before anything is
+/// Reads them back. Every count is checked against the remaining bytes before anything is
 /// allocated; throws InputError with file, byte offset and field.
 class PayloadReader {
  public:
@@ -102,13 +101,13 @@ class PayloadReader {
     if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
-  /// A vector of bytes as it lies in the payload, which must stay.
+  /// A vector of bytes, as a view into the payload, which must outlive it.
   std::span<const uint8_t> GetBytes(std::string_view field);
   std::string GetString(std::string_view field);
 
-  /// Throws unless the payload is used up.
+  /// Throws unless the whole payload has been read.
   void ExpectEnd() const;
-  /// An InputError at the present place: "FILE: byte N: field: reason".
+  /// Throws an InputError for the current position: "FILE: byte N: field: reason".
   [[noreturn]] void Fail(std::string_view field, const std::string& reason) const;
 
  private:

@@ -25,12 +25,12 @@ std::vector<std::byte> Decompress(std::span<const std::byte> compressed, const s
   const auto size = in.Get<uint64_t>("unpacked length");
   const auto bytes = in.GetBytes("compressed payload");
   in.ExpectEnd();
-  // zstd's shortest block, 4 bytes, holds 2^17 that are all the same, and a frame that we wrote
-  // says itself what it holds: another claim is a lie, refused before allocating.
+  // The shortest zstd block, 4 bytes, expands to at most 2^17 equal bytes, and frames that we write
+  // state their content size: larger claims are refused before allocating.
   constexpr uint64_t kMost = uint64_t{1} << 31U;       // bytes; bound
   constexpr uint64_t kMostTimes = uint64_t{1} << 15U;  // derived: 2^17 over 4
   const uint64_t said = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  const bool is_frame = said != ZSTD_CONTENTSIZE_ERROR;  // else told of below: it is damaged
+  const bool is_frame = said != ZSTD_CONTENTSIZE_ERROR;  // else damaged, which is reported below
   if (size > kMost || size / kMostTimes > bytes.size() || (is_frame && size != said)) {
     throw InputError(file + ": byte 32: unpacked length: " + std::to_string(size) +
                      " is more than the file can hold");

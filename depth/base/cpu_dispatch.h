@@ -1,7 +1,7 @@
 #pragma once
 
-// OSSA_CPU_DISPATCH before a function: compiled once for AVX2 and once for any x86-64, picked when
-// the program starts. Only where the compiler can do it; elsewhere one version serves.
+// OSSA_CPU_DISPATCH before a function compiles it for AVX2 and for any x86-64; the version is
+// selected when the program starts. Compilers without support compile one version.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define OSSA_CPU_DISPATCH __attribute__((target_clones("avx2", "default")))
@@ -11,7 +11,7 @@
 
 namespace ossa {
 
-/// Whether this processor runs what is written for AVX2 by hand.
+/// Whether this processor can run hand-written AVX2 code.
 inline bool HasAvx2() {
 #if defined(__x86_64__)
   return __builtin_cpu_supports("avx2") != 0;

@@ -6,14 +6,14 @@
 
 namespace ossa {
 
-/// What a std::ostream writes to an open file, by its descriptor: a std::ofstream opens by name
-/// only, and would follow a link that somebody put there meanwhile. Does not own the descriptor.
-/// A write that fails loses what was not yet in the file, and the stream is bad.
+/// Stream buffer of a std::ostream that writes to an open file descriptor. A std::ofstream opens by
+/// name and would follow a link that was put there meanwhile. Does not own the descriptor. If a
+/// write fails, the buffered bytes are lost and the stream is bad.
 class DescriptorBuffer final : public std::streambuf {
  public:
   explicit DescriptorBuffer(int descriptor);
 
-  /// Forgets what was not yet written.
+  /// Discards the buffered bytes.
   void Discard();
 
  protected:
@@ -23,7 +23,7 @@ class DescriptorBuffer final : public std::streambuf {
   pos_type seekpos(pos_type place, std::ios::openmode which) override;
 
  private:
-  static constexpr size_t kBytes = size_t{1} << 16;  // a system call for so many; by hand
+  static constexpr size_t kBytes = size_t{1} << 16;  // buffer size, one system call each; by hand
   std::array<char, kBytes> bytes_;
   int descriptor_;
 };

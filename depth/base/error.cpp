@@ -5,8 +5,7 @@
 namespace ossa {
 namespace {
 
-// Bytes of the UTF-8 character that `text` begins with; 0 when it begins with none, or with a
-// control character.
+// Length of the UTF-8 character at the start of `text`; 0 for invalid UTF-8 or a control character.
 size_t PrintableLength(std::string_view text) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -16,8 +15,8 @@ size_t PrintableLength(std::string_view text) {
   for (size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xC0U) != 0x80) return 0;
   }
-  // The second byte tells what is too long, a surrogate or too large; U+0080 to U+009F are control
-  // characters too.
+  // The second byte shows overlong encodings, surrogates and out-of-range characters; U+0080 to
+  // U+009F are control characters, too.
   const unsigned char second = byte(1);
   const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
                    (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F) ||

@@ -3,9 +3,10 @@
 
 namespace ossa {
 
-/// Holds a folder for this process as long as it lives, so that two do not work in it at once; a
-/// process that was killed holds nothing. Makes the folder. Throws InputError when another process
-/// holds it, or it cannot be made. On file systems that know no locks nobody holds anything.
+/// Locks a folder for this process during its lifetime, so that two processes do not work in it at
+/// once. The lock of a killed process is released. Creates the folder. Throws InputError if another
+/// process holds the lock, or the folder cannot be created. On file systems without locks it does
+/// nothing.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

@@ -3,15 +3,15 @@
 
 namespace ossa {
 
-/// Counts how deep a JSON text nests, piece by piece, before it is parsed: the JSON library holds a
-/// hundred bytes for each level of a file of brackets, and prints recursively. Brackets within
-/// strings count, too.
+/// Measures the nesting depth of a JSON text, chunk by chunk, before it is parsed: the JSON library
+/// needs a hundred bytes per level for a file of brackets, and prints recursively. Brackets within
+/// strings are counted, too.
 class JsonNesting {
  public:
-  /// Levels, a bound by hand: what ossa and the sensors' programs write nests six deep.
+  /// Levels, a bound by hand: files of ossa and of sensor software have six levels.
   static constexpr int kDeepest = 32;
 
-  /// True when the text so far nests deeper than that.
+  /// True if the text so far is nested more deeply.
   bool IsTooDeep(std::string_view piece) {
     for (const char c : piece) {
       if (c == '[' || c == '{') ++depth_;

@@ -5,22 +5,22 @@
 
 namespace ossa {
 
-/// Numbers that are computed side by side. As many on every machine, so that sums over lanes have
-/// the same order and the same bits on each.
+/// Number of SIMD lanes: the same on every machine, so that sums over lanes have the same order and
+/// the same bits.
 inline constexpr size_t kLanes = 8;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using IntLanes = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
 
-/// The next count that fills all lanes.
+/// The count rounded up to a multiple of kLanes.
 inline size_t PaddedToLanes(size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
-/// Lanes from memory of any alignment.
+/// Loads lanes from memory of any alignment.
 [[gnu::always_inline]] inline void LoadLanes(const float* from, Lanes* to) {
   std::memcpy(to, from, sizeof(Lanes));
 }
 
-/// Writes the numbers of the values that are at least `least`, in order, and returns how many; room
-/// for all of them is needed. Without a branch, for which ones hardly anybody foresees.
+/// Writes the indices of the values that are at least `least`, in order, and returns their number;
+/// `picked` needs room for all. Branch-free, because the outcomes are unpredictable.
 inline size_t PickAtLeast(float least, const float* value, size_t count, uint32_t* picked) {
   size_t kept = 0;
   for (size_t i = 0; i < count; ++i) {

@@ -4,13 +4,12 @@
 
 namespace ossa {
 
-/// Asks the system to keep this memory in pages of 2 MB, as far as whole ones fit into it: of
-/// tables that are read at random places most reads would else miss the translation cache first. A
-/// wish: where the system refuses, all is as good but slower.
+/// Requests 2 MB pages for this memory, as far as whole pages fit: random access to large tables
+/// would otherwise miss the TLB on most reads. Best effort: without large pages everything works,
+/// more slowly.
 void PreferLargePages(const void* memory, size_t bytes);
 
-/// All zero, in such pages from the beginning: one page is cleared faster than 512 small ones are
-/// asked for.
+/// Zeroed memory in large pages: clearing one large page is faster than faulting in 512 small ones.
 template <typename T>
 std::vector<T> MakeLargeVector(size_t count) {
   std::vector<T> numbers;
@@ -20,8 +19,8 @@ std::vector<T> MakeLargeVector(size_t count) {
   return numbers;
 }
 
-/// Gives memory that was freed back to the system, before something large needs other memory: what
-/// a file was read through would else be counted with what stays. A wish, too.
+/// Returns freed memory to the system before another large allocation; otherwise the buffers of a
+/// file would still count. Best effort, too.
 void ReturnFreedMemory();
 
 }  // namespace ossa

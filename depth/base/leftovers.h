@@ -3,13 +3,13 @@
 
 namespace ossa {
 
-/// Removes what processes that were killed left of files (AtomicFile) in a folder and in those in
-/// it: for a folder whose files are made anew, and where nobody on another machine writes, whose
-/// locks may not be known here. What a process still writes stays. On file systems that know no
-/// locks nobody can tell, and all stays.
+/// Removes the leftovers of killed processes (AtomicFile) in a folder and its sub-folders: for a
+/// folder whose files are made anew and to which no other machine, whose locks may be invisible
+/// here, writes. Files still being written are kept. On file systems without locks nothing is
+/// removed.
 void RemoveLeftovers(const std::filesystem::path& folder);
 
-/// The same of what was to become this one file: of files that are worth nothing when they are cut.
+/// As RemoveLeftovers, for one file: for files that are useless when incomplete.
 void RemoveLeftoversOf(const std::filesystem::path& final_path);
 
 }  // namespace ossa

@@ -6,7 +6,7 @@ LineFile::LineFile(const std::filesystem::path& path, std::string_view head) : f
   Append(head);
 }
 
-// Flushed, so that the lines are in the file now, whatever follows them.
+// Flushed, so that later failures do not affect these lines.
 void LineFile::Append(std::string_view lines) {
   file_.stream() << lines;
   file_.Flush();

@@ -7,21 +7,21 @@
 
 namespace ossa {
 
-/// A file of lines, written as they come: what a full disk or a killed process leaves of it are
-/// whole lines. It appears under its name at the end, as AtomicFile's does.
+/// A text file written line by line: a full disk or a killed process leaves complete lines. It
+/// appears under its name at the end, like an AtomicFile.
 class LineFile {
  public:
-  /// `head`: what it begins with. Throws InputError, and DiskFull when the head does not fit.
+  /// `head`: the beginning of the file. Throws InputError, and DiskFull if the head does not fit.
   explicit LineFile(const std::filesystem::path& path, std::string_view head = {});
-  /// Throws DiskFull: all that was appended before stays, of `lines` nothing.
+  /// Throws DiskFull: earlier lines are kept, `lines` is not written at all.
   void Append(std::string_view lines);
   void Finish();
-  /// In place of Finish(), after DiskFull: ends the file after what was appended whole.
+  /// Instead of Finish(), after DiskFull: completes the file with the lines written so far.
   void FinishWithWhatFits();
 
  private:
   AtomicFile file_;
-  uint64_t end_ = 0;  // of what is whole
+  uint64_t end_ = 0;  // end of the complete lines
 };
 
 }  // namespace ossa

@@ -10,9 +10,9 @@
 namespace ossa {
 
 std::string ShortenName(const std::string& name, size_t bytes) {
-  constexpr size_t kExtension = 16;  // bytes at most, by hand: longer than any of ossa's
+  constexpr size_t kExtension = 16;  // longest extension, bytes; by hand: longer than any of ossa's
   const std::string extension = std::filesystem::path(name).extension().string();
-  std::array<char, 18> digest{};  // by definition: '-', 16 digits and the end
+  std::array<char, 18> digest{};  // by definition: '-', 16 digits and the terminator
   std::snprintf(digest.data(), digest.size(), "-%016llx",
                 static_cast<unsigned long long>(XXH3_64bits(name.data(), name.size())));
   std::string end = digest.data();

@@ -5,12 +5,11 @@
 
 namespace ossa {
 
-/// A name cut to so many bytes, between two characters of UTF-8, with a digest of all of it, so
-/// that others that begin alike are told apart, and its extension, by which it is known what it
-/// holds.
+/// Shortens a name to `bytes` bytes, at a UTF-8 boundary, with a digest of the full name, so that
+/// names with a common beginning differ, and its extension, which states the format.
 std::string ShortenName(const std::string& name, size_t bytes);
 
-/// Bytes of the longest name that the folder's file system takes; 0: unknown.
+/// Longest file name of the folder's file system, bytes; 0: unknown.
 size_t LongestNameIn(const std::filesystem::path& folder);
 
 }  // namespace ossa

@@ -7,8 +7,8 @@
 
 namespace ossa {
 
-/// Processes that mpirun or srun started together with this one, by what they tell each; 1 of one
-/// that was started alone.
+/// Number of processes that mpirun or srun started together, from their environment; 1 for a single
+/// process.
 inline int CountLaunchedProcesses() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
     const char* size = std::getenv(name);
@@ -17,8 +17,8 @@ inline int CountLaunchedProcesses() {
   return 1;
 }
 
-/// Of a build without MPI: throws InputError where several processes were started for one piece of
-/// work, each of which would do all of it and write the same files.
+/// For builds without MPI: throws InputError if several processes were started together, because
+/// each would do all the work and write the same files.
 inline void RefuseToShareWithoutMpi() {
   const int processes = CountLaunchedProcesses();
   if (processes == 1) return;

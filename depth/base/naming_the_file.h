@@ -7,15 +7,15 @@
 
 namespace ossa {
 
-/// What `read` returns of the file; throws InputError that names it when memory runs out meanwhile:
-/// of a program's many files the user has to know which is too large.
+/// Returns the result of `read`; throws InputError that names the file if memory runs out: a user
+/// of many files has to know which is too large.
 template <typename Read>
 auto NamingTheFile(const std::filesystem::path& file, const Read& read) -> decltype(read()) {
   try {
     return read();
   } catch (const std::bad_alloc&) {
     throw InputError(file.string() + ": out of memory: expected a file that fits into it");
-  } catch (const std::length_error&) {  // more than any memory holds
+  } catch (const std::length_error&) {  // larger than the address space
     throw InputError(file.string() + ": out of memory: expected a file that fits into it");
   }
 }

@@ -4,8 +4,8 @@
 
 namespace ossa {
 
-/// `text` with control characters and what is no UTF-8 written as \xNN: it is one line of
-/// characters whatever it quotes, and changes no terminal.
+/// `text` with control characters and invalid UTF-8 escaped as \xNN: a single line, whatever it
+/// quotes, that does not affect the terminal.
 std::string OnOneLine(std::string_view text);
 
 }  // namespace ossa

@@ -5,8 +5,8 @@
 
 namespace ossa {
 
-/// The file for reading bytes; a stream that failed for anything but a regular file: to open a pipe
-/// that nobody writes to is to wait for ever.
+/// Opens a file for reading bytes; returns a failed stream for anything but a regular file, because
+/// opening a pipe without a writer blocks forever.
 inline std::ifstream OpenFile(const std::filesystem::path& path, std::ios::openmode more = {}) {
   std::error_code unknown;
   std::ifstream file;

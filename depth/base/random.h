@@ -7,7 +7,7 @@
 namespace ossa {
 
 /// A small seeded generator, SplitMix64 (Steele, Lea and Flood 2014): the same numbers on every
-/// machine and library, which the standard distributions do not promise.
+/// machine and library, unlike the standard distributions.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
@@ -17,8 +17,13 @@ class Random {
     Bits();
   }
 
+  /// The number at `index` (from 0) of a seed's sequence, whatever was drawn before.
+  static uint64_t BitsAt(uint64_t seed, uint64_t index) {
+    return Random(seed + index * kIncrement).Bits();
+  }
+
   uint64_t Bits() {
-    state_ += 0x9e3779b97f4a7c15ULL;
+    state_ += kIncrement;
     uint64_t z = state_;
     z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
     z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
@@ -28,25 +33,27 @@ class Random {
   double Unit() { return static_cast<double>(Bits() >> 11U) * 0x1.0p-53; }
   /// In [low, high).
   double Uniform(double low, double high) { return low + (high - low) * Unit(); }
-  /// In [0, bound), bound > 0; the bias of 2^-32 · bound is of no matter here.
+  /// In [0, bound), bound > 0; the bias of 2^-32 · bound is negligible.
   uint32_t Below(uint32_t bound) { return static_cast<uint32_t>(((Bits() >> 32U) * bound) >> 32U); }
-  /// In [0, count); count > 0. Not the numbers of Below.
+  /// In [0, count); count > 0. A different sequence from Below.
   size_t Index(size_t count) {
     return static_cast<size_t>(Uniform(0.0, static_cast<double>(count)));
   }
-  /// True in that share of draws.
+  /// True with probability `share`.
   bool Chance(double share) { return Unit() < share; }
-  /// Normally distributed, by Box and Muller.
+  /// Normally distributed (Box and Muller).
   double Normal(double mean, double deviation) {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - Unit()));
     return mean + deviation * radius * std::cos(Uniform(0.0, 2.0 * std::numbers::pi));
   }
 
  private:
+  static constexpr uint64_t kIncrement = 0x9e3779b97f4a7c15ULL;  // Steele, Lea and Flood 2014
+
   uint64_t state_;
 };
 
-/// One seed out of several numbers.
+/// Combines several numbers into one seed.
 inline uint64_t MixSeed(uint64_t a, uint64_t b, uint64_t c = 0, uint64_t d = 0) {
   uint64_t mixed = Random(a).Bits();
   mixed = Random(mixed ^ b).Bits();

@@ -7,8 +7,8 @@
 
 namespace ossa {
 
-/// The element that would stand at `rank` (from 0) if the values were in ascending order; they are
-/// rearranged. Precondition: there are more than `rank` of them.
+/// The element at `rank` (from 0) in ascending order; reorders the values. Precondition: there are
+/// more than `rank` values.
 template <typename T>
 T SelectRank(std::span<T> values, size_t rank) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -20,7 +20,7 @@ T SelectRank(std::vector<T>& values, size_t rank) {
   return SelectRank(std::span<T>(values), rank);
 }
 
-/// The median; of an even number of values the upper of the middle two. Precondition: there is one.
+/// The median; for an even number of values the larger of the middle two. Precondition: not empty.
 template <typename T>
 T Median(std::vector<T> values) {
   return SelectRank(values, values.size() / 2);

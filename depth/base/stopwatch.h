@@ -3,7 +3,7 @@
 
 namespace ossa {
 
-/// Time since it was made or last restarted, by a clock that nobody sets.
+/// Time since construction or restart, on a monotonic clock.
 class Stopwatch {
  public:
   double seconds() const {

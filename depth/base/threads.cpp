@@ -32,7 +32,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
     for (size_t i = 0; i < count; ++i) body(i);
     return;
   }
-  // Asked for more than there are, TBB says so on the error output of whichever program this is.
+  // TBB prints a warning to the program's standard error if asked for more threads than there are.
   const size_t there_are =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   tbb::task_arena arena(static_cast<int>(std::min(static_cast<size_t>(threads), there_are)));

@@ -5,7 +5,7 @@
 
 namespace ossa {
 
-/// At most so many threads work in parallel loops while this lives; 0: one a core.
+/// Limits the number of threads of parallel loops during its lifetime; 0: one per core.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -20,7 +20,7 @@ class ThreadLimit {
 
 /// Calls body(i) for each i < count, on as many threads as ThreadLimit allows.
 void ParallelFor(size_t count, const std::function<void(size_t)>& body);
-/// The same on at most `threads` threads; in order when one is enough.
+/// As above on at most `threads` threads; in order if one is enough.
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body);
 
 }  // namespace ossa

@@ -7,11 +7,10 @@ namespace ossa {
 /// Whether a file may have [name] and [[name]] tables.
 enum class TomlTables { kNone, kAllowed };
 
-/// Throws InputError, `source` and the line named, for a text that is not of the plain TOML that
-/// our files are written in: lines of name = value, a value being a number, a text of one line or a
-/// list of those, and headers of tables where those are allowed. To be asked before toml++ reads
-/// it, for toml++ 3 runs into what it declares unreachable at many a character that is not legal
-/// where it stands (found by fuzzing).
+/// Throws InputError, with `source` and line, unless the text is in the subset of TOML that our
+/// files use: lines of name = value, where a value is a number, a single-line string or a list of
+/// these, and table headers if allowed. Call it before toml++ parses the text: toml++ 3 reaches
+/// code declared unreachable on many invalid characters (found by fuzzing).
 void CheckTomlShape(std::string_view text, const std::string& source, TomlTables tables);
 
 }  // namespace ossa

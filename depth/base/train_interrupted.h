@@ -3,7 +3,7 @@
 
 namespace ossa {
 
-/// Thrown by training that its caller asked to stop.
+/// Thrown by training when its caller asked it to stop.
 struct TrainInterrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

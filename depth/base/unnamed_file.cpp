@@ -15,7 +15,7 @@
 namespace ossa {
 namespace {
 
-// Not every file system knows files that never had a name.
+// For file systems without support for unnamed files.
 int OpenAndUnlink(const std::filesystem::path& folder) {
   std::string name = (folder / ".ossa-XXXXXX").string();  // mkostemp fills in the last six
   const int file = mkostemp(name.data(), O_CLOEXEC);

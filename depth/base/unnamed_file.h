@@ -4,12 +4,12 @@
 
 namespace ossa {
 
-/// A file without a name, for what is too much to be held in memory until it is needed: it is gone
-/// with the process, however that ends.
+/// An unnamed temporary file for data too large for memory: it disappears with the process, however
+/// that ends.
 class UnnamedFile {
  public:
   UnnamedFile() = default;
-  /// On the disk of the folder. Throws InputError when there can be none.
+  /// Creates it on the disk of `folder`. Throws InputError on failure.
   explicit UnnamedFile(const std::filesystem::path& folder);
   ~UnnamedFile();
   UnnamedFile(UnnamedFile&& other) noexcept;
@@ -18,7 +18,7 @@ class UnnamedFile {
   bool is_open() const { return file_ >= 0; }
   /// Throws DiskFull.
   void WriteAt(uint64_t place, const void* bytes, size_t size);
-  /// Throws InputError unless so many bytes are there.
+  /// Throws InputError if the bytes are not there.
   void ReadAt(uint64_t place, void* bytes, size_t size) const;
 
  private:

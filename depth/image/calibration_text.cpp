@@ -13,14 +13,14 @@
 namespace ossa::depth {
 namespace {
 
-constexpr std::string_view kBetween = " \t\r\n,;[]";  // of the numbers of a matrix
+constexpr std::string_view kBetween = " \t\r\n,;[]";  // separators of a matrix's numbers
 
 bool EndsWord(std::string_view text, size_t at) {
   constexpr std::string_view kWordEnds = " \t\r\n,;[]<>:{}\"";
   return at >= text.size() || kWordEnds.find(text[at]) != std::string_view::npos;
 }
 
-// The numbers up to what is none. A dash before a blank begins an entry of a YAML list.
+// The numbers up to the first other text. A dash before a blank starts an entry of a YAML list.
 std::vector<double> ReadNumbers(std::string_view text) {
   std::vector<double> numbers;
   for (size_t at = 0; at < text.size();) {
@@ -39,8 +39,8 @@ std::vector<double> ReadNumbers(std::string_view text) {
   return numbers;
 }
 
-// Where the value of a key begins: key: ..., "key": ..., <key> or <key type_id="...">. Of YAML keys
-// only those at a line's begin count, as others are a matrix's own.
+// Position of the value of a key: key: ..., "key": ..., <key> or <key type_id="...">. YAML keys
+// count only at the start of a line: others belong to a matrix.
 size_t FindValue(std::string_view text, std::string_view key) {
   for (size_t at = text.find(key); at != text.npos; at = text.find(key, at + 1)) {
     const size_t end = at + key.size();
@@ -55,8 +55,7 @@ size_t FindValue(std::string_view text, std::string_view key) {
   return text.npos;
 }
 
-// Up to the next key at the same level: a tag's end, a JSON object's, or a YAML line that is not
-// moved in.
+// The value up to the end of its tag, its JSON object, or the next YAML line that is not indented.
 std::string_view ValueFrom(std::string_view text, size_t begin, std::string_view key) {
   const std::string_view rest = text.substr(begin);
   const size_t tag = rest.find("</" + std::string(key) + ">");
@@ -96,7 +95,7 @@ std::vector<double> NumbersOf(std::string_view value) {
 int SideOf(std::optional<std::string_view> value, const std::string& name) {
   if (!value) return 0;
   constexpr double kAnInt =
-      1e9;  // pixels: an int holds it, a bound; larger images are refused later
+      1e9;  // pixels: a bound that fits into an int; larger images are refused later
   const std::vector<double> numbers = NumbersOf(*value);
   if (numbers.empty() || !(numbers[0] >= 1 && numbers[0] < kAnInt) ||
       numbers[0] != std::floor(numbers[0])) {
@@ -113,7 +112,7 @@ std::string WordOf(std::optional<std::string_view> value) {
   return std::string(value->substr(begin, value->find_first_of(kAround, begin) - begin));
 }
 
-// What OpenCV's distortion (cv::projectPoints) adds to a ray x, y.
+// Displacement of a ray x, y by OpenCV's distortion (cv::projectPoints).
 std::array<double, 2> ComputeShift(const std::vector<double>& k, double x, double y) {
   const double r2 = x * x + y * y;
   const double factor =
@@ -122,16 +121,16 @@ std::array<double, 2> ComputeShift(const std::vector<double>& k, double x, doubl
           y * (factor - 1) + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
 }
 
-// Of nine numbers row by row, as OpenCV and ROS have them, or column by column, as MATLAB and
-// Record3D do: the centre is in the last column or in the last row.
+// Nine numbers in row-major order, from row-major (OpenCV, ROS) or column-major order (MATLAB,
+// Record3D): the principal point is in the last column or in the last row.
 std::array<double, 9> RowByRow(const std::vector<double>& n) {
   const bool is_by_columns = n[2] == 0 && n[5] == 0 && (n[6] != 0 || n[7] != 0);
   if (is_by_columns) return {n[0], n[3], n[6], n[1], n[4], n[7], n[2], n[5], n[8]};
   return {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]};
 }
 
-// The numbers of the matrix that a text states. Some call theirs intrinsics; so do others what is
-// no matrix.
+// The numbers of the matrix in a text. It may be called "intrinsics", which may also be something
+// else.
 std::optional<std::vector<double>> FindMatrix(std::string_view text, const std::string& name) {
   const auto matrix = Value(text, {"camera_matrix", "cameraMatrix", "CameraMatrix", "K", "k"});
   if (!matrix) {
@@ -152,7 +151,7 @@ std::optional<std::vector<double>> FindMatrix(std::string_view text, const std::
 std::optional<Calibration> ReadBareMatrix(const std::string& text) {
   if (text.find_first_not_of("0123456789+-.eE \t\r\n,;[]") != text.npos) return std::nullopt;
   const std::vector<double> n = ReadNumbers(text);
-  const bool begins_with_matrix =  // as the depth.cal of BIWI's heads, which tells the lens, too
+  const bool begins_with_matrix =  // as in BIWI's depth.cal, which also has the distortion
       n.size() > 9 && n[3] == 0 && n[6] == 0 && n[7] == 0 && n[8] == 1;
   if (n.size() == 9 || begins_with_matrix) return Calibration{.matrix = RowByRow(n)};
   if (n.size() != 12 && n.size() != 16) return std::nullopt;  // rows of four

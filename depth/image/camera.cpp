@@ -15,7 +15,7 @@ struct Field {
   const char* name;
   double value, least, most;
 
-  bool IsSane() const { return value >= least && value <= most; }  // NaN is not
+  bool IsSane() const { return value >= least && value <= most; }  // false for NaN
 };
 
 std::array<Field, 6> FieldsOf(const Camera& camera) {

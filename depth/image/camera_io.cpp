@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-// A manifest is a few kilobytes; anything of this size is not one.
+// Manifests have a few kilobytes; larger files are something else.
 constexpr std::streamoff kLargestJson = std::streamoff{16} << 20;  // bytes; chosen by hand
 
 std::string ReadText(const std::filesystem::path& path) {
@@ -58,7 +58,7 @@ double Number(const json& object, const char* field, const std::string& name) {
 }
 
 int WholeNumber(const json& object, const char* field, const std::string& name) {
-  // Holds it; what is too large for an image is told of by its name; pixels; a bound
+  // Fits into an int; image sizes are checked later, by name; pixels; a bound
   constexpr double kAnInt = 1e9;
   const double value = Number(object, field, name);
   if (value != std::floor(value) || std::abs(value) > kAnInt) {
@@ -67,7 +67,7 @@ int WholeNumber(const json& object, const char* field, const std::string& name) 
   return static_cast<int>(value);
 }
 
-// As Open3D writes it: the nine numbers of the matrix, column by column.
+// Open3D's matrix: nine numbers in column-major order.
 void TakeMatrix(const json& matrix, const std::string& name, Camera* camera) {
   const bool is_matrix =
       matrix.is_array() && matrix.size() == 9 &&
@@ -89,7 +89,7 @@ Camera FromObject(const json& object, const std::string& name) {
   } else {
     camera.fx = Number(object, "fx", name);
     camera.fy = Number(object, "fy", name);
-    // RealSense's programs say ppx and ppy.
+    // RealSense tools write ppx and ppy.
     camera.cx = Number(object, object.contains("ppx") ? "ppx" : "cx", name);
     camera.cy = Number(object, object.contains("ppy") ? "ppy" : "cy", name);
   }
@@ -97,9 +97,9 @@ Camera FromObject(const json& object, const std::string& name) {
   return camera;
 }
 
-// What a lens does that ossa's cameras do not have; "" of one that hardly does.
+// Warning about lens distortion, which ossa's cameras do not model; "" if it is negligible.
 std::string DescribeLens(const Calibration& calibration, const std::string& name) {
-  constexpr double kStrong = 0.01;  // share of the width; by hand: joints are off by as much anyway
+  constexpr double kStrong = 0.01;  // share of the width; by hand: below other joint errors
   const double shift = ComputeCornerShift(calibration);
   const double width = calibration.width > 0 ? calibration.width : 2 * calibration.matrix[2];
   if (shift <= kStrong * width) return "";
@@ -191,7 +191,7 @@ CameraChoice ParseCamera(const std::string& text) {
   if (IsCameraFile(text)) return ReadCameraFile(text);
   const std::vector<double> values = SplitNumbers(text);
   if (values.size() != 4) {
-    PresetCamera(text, 1, 1);  // says what was expected, unless it is one
+    PresetCamera(text, 1, 1);  // throws with the expectation unless it is a preset
     return CameraChoice(text);
   }
   Camera camera{1, 1, values[0], values[1], values[2], values[3]};

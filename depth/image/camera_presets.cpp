@@ -9,13 +9,13 @@
 namespace ossa::depth {
 namespace {
 
-// In the order of PresetCamera's figures.
+// In the order of PresetCamera's values.
 constexpr std::array<std::string_view, 14> kNames = {
     "kinect-v1",  "kinect-v2", "azure-nfov", "azure-wfov",      "xtion",           "d415",
     "d435",       "d455",      "femto",      "kinect-v1-color", "kinect-v2-color", "azure-color",
     "d415-color", "d435-color"};
 
-// As wide a view in images of another size, whose pixels are square whatever their shape.
+// The same field of view in images of another width, with square pixels.
 Camera ScaledByWidth(const Camera& whole, int width, int height) {
   const double scale = static_cast<double>(width) / whole.width;
   const double below_middle_px = scale * (whole.cy - whole.height / 2.0);
@@ -27,16 +27,16 @@ Camera ScaledByWidth(const Camera& whole, int width, int height) {
           height / 2.0 + below_middle_px};
 }
 
-// Azure Kinect and Orbbec's Femto share a sensor of 1024 × 1024 pixels, f about 504, which the wide
-// field of view shows whole and the narrow one from (192, 180) on (Azure Kinect SDK,
-// mode_specific_calibration.c); either mode may be binned by 2. Pixel centres are whole numbers.
+// Azure Kinect and Orbbec Femto have the same sensor of 1024 × 1024 pixels, f about 504. The wide
+// field of view is all of it, the narrow one starts at (192, 180) (Azure Kinect SDK,
+// mode_specific_calibration.c); both may be binned by 2. Pixel centres are integers.
 Camera AzureCamera(bool wide, int width, int height) {
   constexpr double kFocal_px = 504.0;
   const Camera whole{1024, 1024, kFocal_px, kFocal_px, 511.5, 511.5};
   return ScaledByWidth(wide ? whole : Cropped(whole, 192, 180, 640, 576), width, height);
 }
 
-// A RealSense scales its sensor's image until it covers the size asked for, and cuts the rest off
+// A RealSense scales its sensor's image to cover the requested size, and crops the rest
 // (rs-enumerate-devices -c of a D455: f 640 at 1280 x 720, 424 at 848 x 480, 384 at 640 x 480).
 Camera RealSenseCamera(double focal_at_1280_px, int rows_at_1280, int width, int height) {
   const double scale = std::max(width / 1280.0, static_cast<double>(height) / rows_at_1280);
@@ -44,9 +44,9 @@ Camera RealSenseCamera(double focal_at_1280_px, int rows_at_1280, int width, int
   return {width, height, f, f, width / 2.0, height / 2.0};
 }
 
-// The colour camera of a D415 or D435: 1920 x 1080, scaled until its height fits, its sides cut off
-// (users' D435: f 918.6 at 1280 x 720, 612.4 at 640 x 480, 306.2 at 424 x 240 and 320 x 240; D415:
-// 925.8 at 1280 x 720). A D455's sees as much as its depth.
+// The colour camera of a D415 or D435: 1920 x 1080, scaled to the requested height, with its sides
+// cropped (users' D435: f 918.6 at 1280 x 720, 612.4 at 640 x 480, 306.2 at 424 x 240 and 320 x
+// 240; D415: 925.8 at 1280 x 720). A D455's has the same field of view as its depth.
 Camera RealSenseColorCamera(int width, int height) {
   constexpr double kFocalPerHeight = 1.28;
   const double f = kFocalPerHeight * height;
@@ -57,7 +57,7 @@ bool IsAnyOf(int width, int height, std::initializer_list<std::array<int, 2>> si
   return std::find(sizes.begin(), sizes.end(), std::array{width, height}) != sizes.end();
 }
 
-// Of an image that is as wide as high, or wider.
+// For images at least as wide as high.
 Camera UprightCamera(std::string_view name, int width, int height) {
   const auto scaled = [&](const Camera& camera) { return ScaledByWidth(camera, width, height); };
   if (name == "kinect-v1") return KinectV1Camera(width, height);
@@ -71,9 +71,9 @@ Camera UprightCamera(std::string_view name, int width, int height) {
   if (name == "d415") return RealSenseCamera(1005.0, 720, width, height);
   if (name == "d435" || name == "d455") return RealSenseCamera(640.0, 800, width, height);
   if (name == "femto") return AzureCamera(width == height, width, height);
-  // What OpenNI registers to its colour camera.
+  // OpenNI's depth registered to the colour camera.
   if (name == "kinect-v1-color") return scaled({640, 480, 525.0, 525.0, 320.0, 240.0});
-  // What its factory wrote into each (libfreenect2).
+  // Factory calibration (libfreenect2).
   if (name == "kinect-v2-color") return scaled({1920, 1080, 1081.4, 1081.4, 959.5, 539.5});
   // Users' calibrations: 0.473 to 0.479 of the width, whatever the shape.
   if (name == "azure-color") return scaled({1920, 1080, 916.0, 916.0, 959.5, 539.5});
@@ -84,15 +84,14 @@ Camera UprightCamera(std::string_view name, int width, int height) {
   throw InputError(message + ", found '" + std::string(name) + "'");
 }
 
-// Whose images these are; "": nobody's. width >= height.
+// The preset with this image size; "" if there is none. width >= height.
 std::string_view PresetOfSize(int width, int height) {
   if (IsAnyOf(width, height, {{640, 480}, {320, 240}, {160, 120}, {80, 60}})) return "kinect-v1";
   if (IsAnyOf(width, height, {{512, 424}})) return "kinect-v2";
   if (IsAnyOf(width, height, {{640, 576}, {320, 288}})) return "azure-nfov";
   if (IsAnyOf(width, height, {{512, 512}, {1024, 1024}})) return "azure-wfov";
-  // Of depth that was aligned to a colour image, whole or, as ROS's iai_kinect2 has it (qhd), at
-  // half its size. Two more cameras have images of the first size, of a wider and of a narrower
-  // view.
+  // Depth aligned to a colour image, full size or, as in ROS's iai_kinect2 (qhd), half size. Two
+  // other cameras have images of the first size, with a wider and a narrower view.
   if (IsAnyOf(width, height, {{1920, 1080}, {960, 540}})) return "kinect-v2-color";
   if (IsAnyOf(width, height, {{2048, 1536}, {2560, 1440}, {3840, 2160}, {4096, 3072}})) {
     return "azure-color";
@@ -108,7 +107,8 @@ std::span<const std::string_view> CameraPresetNames() { return kNames; }
 
 Camera PresetCamera(std::string_view name, int width, int height) {
   if (height <= width) return UprightCamera(name, width, height);
-  // On its side, whichever: where its centre is off the middle nobody knows to which.
+  // Rotated to either side: the principal point is assumed in the middle, because the direction is
+  // unknown.
   const double f = UprightCamera(name, height, width).fx;
   return {width, height, f, f, width / 2.0, height / 2.0};
 }
@@ -120,7 +120,7 @@ CameraGuess GuessCamera(int width, int height) {
 }
 
 std::vector<CameraGuess> NarrowerCameras(int width, int height) {
-  // By hand: people are seen about as well where they are a fifth too large.
+  // By hand: people up to a fifth too large are recognised about as well.
   constexpr double kNarrower = 1.2;
   const CameraGuess guess = GuessCamera(width, height);
   std::vector<CameraGuess> cameras;

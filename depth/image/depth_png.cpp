@@ -12,7 +12,7 @@
 namespace ossa::depth {
 namespace {
 
-// A whole 8192² 16-bit image that does not compress, and some: larger files are not ours.
+// An incompressible 16-bit image of 8192², and a margin: larger files are refused.
 constexpr uintmax_t kLargestFile = uintmax_t{150} << 20;
 
 std::vector<uint8_t> ReadBytes(const std::filesystem::path& path, size_t at_most) {

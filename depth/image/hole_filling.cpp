@@ -14,19 +14,19 @@ namespace {
 
 // Constants: chosen by hand, on real and rendered images.
 //
-// Of the eight neighbours of a hole that is a single pixel's. A shadow's border has fewer readings.
+// Readings among the eight neighbours of a single-pixel hole. Borders of shadows have fewer.
 constexpr int kAroundSingle = 6;  // pixels
-// Single-pixel holes, as a share of the readings, from which on a sensor is said to scatter them.
-// Real images of Kinect v1, Xtion and RealSense have 0.4 % at most, rendered ones of a Kinect
-// v1 1.3; at 5 % joints moved by 1 cm.
+// Share of single-pixel holes from which a sensor counts as scattering them. Real images of Kinect
+// v1, Xtion and RealSense have at most 0.4 %, rendered ones of a Kinect v1 1.3; at 5 % joints moved
+// by 1 cm.
 constexpr double kScattered = 0.02;  // share, ours
-// Neighbours with a reading that a hole is filled from: half of them. With three silhouettes grow,
-// with five a third of the pixels may not be missing.
+// Neighbours with a reading needed to fill a hole: half of them. With three silhouettes grow; with
+// five an image with a third of its pixels missing would not be filled.
 constexpr int kFillFrom = 4;  // pixels
-// The same of all holes that could be filled, for a grid of missing rows and columns has no single
-// ones. Real images have 1.5 % at most, rendered ones of a person cut out 7 %.
+// The same for all fillable holes, because a grid of missing rows and columns has no single ones.
+// Real images have at most 1.5 %, rendered ones of a person cut out 7 %.
 constexpr double kRiddled = 0.1;  // share, ours
-// What one pass leaves where two or three holes touch is filled by the second.
+// A second pass fills what the first leaves where two or three holes touch.
 constexpr int kPasses = 2;
 
 struct HoleCount {
@@ -41,7 +41,7 @@ struct HoleCount {
   }
 };
 
-// In 16 bits a row: the compiler counts 16 pixels at a time.
+// With 16-bit counters per row: the compiler processes 16 pixels at once.
 void CountHoles(const uint16_t* above, const uint16_t* row, const uint16_t* below, int width,
                 HoleCount& count) {
   uint16_t single = 0, fillable = 0, readings = 0;
@@ -61,7 +61,7 @@ void CountHoles(const uint16_t* above, const uint16_t* row, const uint16_t* belo
   count.readings += readings;
 }
 
-// Not every row: a sixtieth of them tells as much. An odd step meets missing rows of an even one.
+// Samples about a sixtieth of the rows. The step is odd, so that it meets missing even or odd rows.
 int RowStep(int height) { return height / 64 | 1; }
 
 bool HasScatteredHoles(const DepthView& view) {
@@ -73,7 +73,7 @@ bool HasScatteredHoles(const DepthView& view) {
   return count.is_scattered();
 }
 
-// With a border of no readings, one pixel wide.
+// The image with a border without readings, one pixel wide.
 Image<uint16_t> Framed(const DepthView& view) {
   Image<uint16_t> image(view.width + 2, view.height + 2);
   for (int v = 0; v < view.height; ++v) {
@@ -92,8 +92,8 @@ std::vector<uint16_t> Unframed(const Image<uint16_t>& framed) {
   return depth_mm;
 }
 
-// Ascending, by the least comparators that sort eight (Knuth, The Art of Computer Programming 3,
-// 5.3.4): without branches, so that the compiler does several pixels at once.
+// Sorts ascending by the smallest sorting network for eight (Knuth, The Art of Computer Programming
+// 3, 5.3.4): branch-free, so that the compiler vectorises over pixels.
 void Sort(std::array<uint16_t, 8>& a) {
   const auto order = [&a](size_t i, size_t j) {
     const uint16_t low = std::min(a[i], a[j]);
@@ -108,8 +108,8 @@ void Sort(std::array<uint16_t, 8>& a) {
   order(1, 2), order(3, 4), order(5, 6);
 }
 
-// Of the pixels that are not 0; of two in the middle the lower, so that it is a reading. 0 of fewer
-// than kFillFrom.
+// Median of the non-zero pixels; the lower of the two middle ones, so that it is an actual reading.
+// 0 for fewer than kFillFrom.
 uint16_t MedianReading(std::array<uint16_t, 8> around) {
   int count = 0;
   for (const uint16_t z_mm : around) count += z_mm != 0;

@@ -5,11 +5,11 @@
 
 namespace ossa::depth {
 
-/// The frame with its scattered single-pixel holes filled, each by the median of the readings next
-/// to it; nothing where they are as few as a structured-light sensor's. Time-of-flight cameras
-/// without the driver's filters, active stereo before dark cloth and depth registered to a larger
-/// colour image are full of them, and a tree that looks at one takes it for background. Holes wider
-/// than two or three pixels, such as a sensor's shadow, stay holes.
+/// Fills scattered single-pixel holes with the median of neighbouring readings; none if they are as
+/// rare as with structured-light sensors. Time-of-flight cameras without the driver's filters,
+/// active stereo on dark cloth, and depth registered to a larger colour image are full of them, and
+/// a tree that probes one takes it for background. Holes wider than two or three pixels, such as a
+/// sensor's shadow, are kept.
 std::optional<DepthFrame> FillScatteredHoles(const DepthFrame& frame);
 
 }  // namespace ossa::depth

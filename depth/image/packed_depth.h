@@ -7,7 +7,7 @@
 
 namespace ossa::depth {
 
-/// The image row-major, height × width, without gaps between rows: the image itself, or a copy in
+/// The image, row-major height × width without gaps between rows: the image itself, or a copy in
 /// `scratch` if its rows have gaps. Valid as long as both.
 inline std::span<const uint16_t> PackedDepth(const DepthView& image,
                                              std::vector<uint16_t>& scratch) {

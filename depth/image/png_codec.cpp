@@ -1,7 +1,7 @@
-// PNGs through libpng, whose errors become InputErrors.
+// PNG coding by libpng, with its errors converted to InputError.
 // Departure: libpng rather than OpenCV's imgcodecs, which prints damage to stderr instead of
 // reporting it, and which in Debian loads GDAL and 140 other libraries (50 MB of the tracker's
-// memory) into every program that touches one image.
+// memory) into every program that reads one image.
 #include <png.h>
 
 #include <algorithm>
@@ -48,8 +48,8 @@ std::string ChannelsName(int colour_type) {
   }
 }
 
-// What libpng's callbacks share with us. Errors leave libpng by longjmp, so nothing with a
-// destructor may live in the frames between setjmp and the call.
+// State shared with libpng's callbacks. Errors leave libpng by longjmp, so the frames between
+// setjmp and the call must have no objects with destructors.
 struct Session {
   std::span<const uint8_t> input;
   size_t offset = 0;
@@ -78,12 +78,12 @@ void GiveBytes(png_structp png, png_bytep from, size_t size) {
 
 void NoFlush(png_structp) {}
 
-// Plain function: no C++ object is made after setjmp. Returns false when libpng gave up.
+// Creates no C++ objects after setjmp. Returns false if libpng failed.
 bool ReadPixels(png_structp png, png_infop info, Session* session, png_bytepp rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, session, TakeBytes);
   png_set_user_limits(png, kLargestImageSide, kLargestImageSide);
-  png_set_chunk_malloc_max(png, 1 << 20);  // text and the like: we use none of it
+  png_set_chunk_malloc_max(png, 1 << 20);  // metadata chunks, which are not used
   png_read_info(png, info);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
   png_set_interlace_handling(png);
@@ -92,7 +92,7 @@ bool ReadPixels(png_structp png, png_infop info, Session* session, png_bytepp ro
   return true;
 }
 
-// What the pixels of a PNG to be written are, and how hard it is squeezed.
+// Pixel format and compression level of a PNG to write.
 struct PngForm {
   ImageSize size;
   int bit_depth = 8;
@@ -124,7 +124,7 @@ std::vector<png_bytep> RowsOf(uint8_t* samples, int height, size_t stride) {
 }
 
 std::vector<uint8_t> Encode(const uint8_t* samples, size_t stride, const PngForm& form) {
-  // libpng takes writable rows but only reads them.
+  // libpng's interface takes non-const rows but only reads them.
   auto rows = RowsOf(const_cast<uint8_t*>(samples), form.size.height, stride);
   Session session;
   png_structp png =
@@ -183,7 +183,7 @@ ImageSize DecodeGreyPng(std::span<const uint8_t> bytes, int bit_depth, const std
                         std::vector<uint8_t>* samples) {
   const ImageSize size = DecodeGreyPngHeader(bytes, bit_depth, name);
   const size_t stride = static_cast<size_t>(size.width) * static_cast<size_t>(bit_depth / 8);
-  // deflate cannot shrink more than 1032 times: a tiny file with a huge header allocates nothing.
+  // deflate compresses by at most 1032: a tiny file with a huge header must not cause allocation.
   const size_t wanted = stride * static_cast<size_t>(size.height);
   if (wanted / 1100 > bytes.size()) {
     Fail(name, bytes.size(),
@@ -205,7 +205,7 @@ ImageSize DecodeGreyPng(std::span<const uint8_t> bytes, int bit_depth, const std
 
 std::vector<uint8_t> EncodeGreyPng(const uint8_t* samples, ImageSize size, size_t stride,
                                    int bit_depth) {
-  // Rendering writes thousands: speed over the last 5 %.
+  // Rendering writes thousands of images: speed matters more than 5 % of size.
   return Encode(samples, stride, {.size = size, .bit_depth = bit_depth});
 }
 

@@ -53,8 +53,8 @@ DepthFrame Unmirrored(const DepthFrame& frame) {
   return made;
 }
 
-// A pixel's offsets from the centre are -x and -y: what lies below the centre, at -y, comes to lie
-// left of it, at x.
+// A pixel's offset from the centre is (-x, -y): what is below the centre, at -y, moves to its left,
+// at x.
 Eigen::Matrix3d CameraFromTurned(int quarters) {
   Eigen::Matrix3d quarter;
   quarter << 0, 1, 0,  //

@@ -12,12 +12,12 @@ enum Stream : uint64_t { kBlobs, kLargeBlobs, kEdges, kHoles, kChance };
 
 // Constants: by hand.
 
-// Neighbours whose disparities differ by more pixels of 640 than this lie on two surfaces.
+// Neighbours whose disparities differ by more (pixels of 640) are on different surfaces.
 constexpr float kEdge_px = 1.0F;
 
-/// What a matching window finds.
+/// The result of a matching window.
 struct Match {
-  float disparity_px = 0.0F;  // of the image's own width; 0: nothing
+  float disparity_px = 0.0F;  // in pixels of this image; 0: no match
   int32_t source = -1;
   bool at_edge = false;
 };
@@ -39,11 +39,11 @@ class Sensor {
         holes_(camera.width, camera.height, Cell(options.blob_px), Hash(seed, kHoles)),
         chance_seed_(Hash(seed, kChance)) {}
 
-  /// Reads pixel (u, v); leaves it alone when there is no reading.
+  /// Measures pixel (u, v); leaves it unset without a reading.
   void Read(int u, int v, SensorImage& image) const {
     const Match match = MatchAt(u, v);
     if (match.source < 0) return;
-    // Where the other imager's picture has ended already.
+    // Outside the other imager's image.
     if (static_cast<float>(u) + crop_left_px_ < match.disparity_px) return;
     const auto place = static_cast<uint64_t>(v) * 65536 + static_cast<uint64_t>(u);
     if (DropsOut(match, u, v, Hash(chance_seed_, place))) return;
@@ -65,7 +65,7 @@ class Sensor {
  private:
   float Cell(double cell_px) const { return std::max(1.0F, static_cast<float>(cell_px) * scale_); }
 
-  /// Disparity of the surface there, pixels; 0 where there is none.
+  /// Disparity of the surface, pixels; 0 without a surface.
   float Disparity_px(int u, int v) const {
     const float depth_m = rendered_.depth_m.at(u, v);
     return depth_m > 0.0F ? focal_baseline_ / depth_m : 0.0F;
@@ -78,7 +78,7 @@ class Sensor {
     int32_t nearest = match.source;
     int count = 0;
     for (int step = -2; step <= 2; ++step) {
-      // The window's row and column, at five places each.
+      // Five samples each along the window's row and column.
       for (const bool along_u : {true, false}) {
         const int off = step * half_window_ / 2;
         const int nu = std::clamp(along_u ? u + off : u, 0, camera_.width - 1);
@@ -96,19 +96,19 @@ class Sensor {
       return own_px > 0.0F ? match : Grown(nearest_px, nearest, u, v);
     const float mean_px = sum_px / static_cast<float>(count);
     if (!Smears(u, v)) return {nearest_px, nearest, true};
-    // The label is that of the surface which is nearer to what is measured.
+    // Takes the label of the surface nearest to the measurement.
     const bool near_wins = std::abs(nearest_px - mean_px) < std::abs(own_px - mean_px);
     return {mean_px, near_wins ? nearest : match.source, true};
   }
 
-  /// Beside a silhouette against nothing: the near surface grows there too, or it does not.
+  /// Beside a silhouette without a background: the near surface either grows here or not.
   Match Grown(float nearest_px, int32_t nearest, int u, int v) const {
     if (nearest_px <= 0.0F || Smears(u, v)) return {};
     return {nearest_px, nearest, true};
   }
 
   bool Smears(int u, int v) const {
-    // A normal number's distribution, near enough.
+    // Approximates the cumulative normal distribution.
     const float share = 1.0F / (1.0F + std::exp(-1.7F * edges_.At(u, v)));
     return share < static_cast<float>(options_.smeared);
   }
@@ -129,7 +129,7 @@ class Sensor {
   const RenderedImage& rendered_;
   const Camera& camera_;
   const ActiveStereoOptions& options_;
-  float scale_;  // pixels a pixel of 640
+  float scale_;  // pixels per pixel of 640
   float crop_left_px_;
   float focal_baseline_;  // pixel metres
   int half_window_;

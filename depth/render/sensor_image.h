@@ -6,15 +6,15 @@
 
 namespace ossa::depth {
 
-/// What a simulated sensor delivers of a rendered image; both images have the camera's size.
+/// The output of a simulated sensor; both images have the camera's size.
 struct SensorImage {
   Image<uint16_t> depth_mm;  // 0 = no reading
-  /// v * width + u of the rendered pixel whose surface was measured, so that labels can follow it;
-  /// -1 where there is no reading.
+  /// v * width + u of the rendered pixel whose surface was measured, for transferring labels; -1
+  /// without a reading.
   Image<int32_t> source;
 };
 
-/// The rendered image in whole millimetres, nothing lost.
+/// The rendered image, rounded to millimetres, without errors.
 SensorImage PerfectSensor(const RenderedImage& rendered);
 
 }  // namespace ossa::depth

@@ -10,9 +10,9 @@ namespace {
 
 StructuredLightOptions Xtion() {
   StructuredLightOptions xtion;
-  // The same chip as a Kinect v1's and the same steps. Its noise is half a step, as Khoshelham &
-  // Elberink 2012 have it, and hardly a pixel fails inside a surface: measured on ITOP's frames
-  // (`ossa experiment sensor`).
+  // The same chip and quantisation as a Kinect v1. Its noise is half a step (Khoshelham & Elberink
+  // 2012), and hardly any pixel inside a surface is lost: measured on ITOP's frames (`ossa
+  // experiment sensor`).
   xtion.disparity_noise_px = 0.062;
   xtion.dropout = 0.00001;
   xtion.lateral_noise_px = 0.6;  // by hand
@@ -21,9 +21,9 @@ StructuredLightOptions Xtion() {
 
 TimeOfFlightOptions Azure() {
   TimeOfFlightOptions azure;
-  // Standard deviation of 17 mm at most to 3.86 m, Microsoft's hardware specification, confirmed by
-  // Tölgyessy et al. 2021; far less in the middle of the image: measured on a recording (`ossa
-  // experiment sensor`), in which no mixed pixel is left either.
+  // Standard deviation of at most 17 mm up to 3.86 m (Microsoft's hardware specification, confirmed
+  // by Tölgyessy et al. 2021); much less in the image centre: measured on a recording (`ossa
+  // experiment sensor`), which has no mixed pixels, either.
   azure.noise_m = 0.0006;
   azure.noise_per_m2 = 0.00008;
   azure.fall_off = 2.5;

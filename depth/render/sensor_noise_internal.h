@@ -4,17 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "depth/base/random.h"
+
 namespace ossa::depth {
 
-// Noise of simulated sensors: it depends on the seed and the place, not on the order of evaluation.
+// Noise of simulated sensors; it depends on seed and position, not on the order of evaluation.
 
-/// SplitMix64 of a counter: noise that depends on the place, not on the order of evaluation.
-inline uint64_t Hash(uint64_t seed, uint64_t place) {
-  uint64_t x = seed + (place + 1) * 0x9E3779B97F4A7C15ULL;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31);
-}
+/// 64 random bits of a position.
+inline uint64_t Hash(uint64_t seed, uint64_t place) { return Random::BitsAt(seed, place); }
 
 /// 16 bits of a hash as a number in [0, 1).
 inline float Uniform(uint64_t hash, int lane) {
@@ -29,7 +26,7 @@ inline float Normal(uint64_t hash) {
 
 inline int Rounded(float value) { return static_cast<int>(std::floor(value + 0.5F)); }
 
-/// Normal noise that neighbours share: a coarse grid, interpolated between its nodes.
+/// Spatially correlated normal noise: a coarse grid, interpolated between its nodes.
 class WavyNoise {
  public:
   WavyNoise(int width, int height, float cell_px, uint64_t seed)
@@ -41,7 +38,7 @@ class WavyNoise {
     }
   }
   float At(int u, int v) const {
-    // Between nodes the variance is 4/9 of theirs on average; factor; derived: sqrt(9/4)
+    // Interpolation reduces the variance to 4/9 on average; factor; derived: sqrt(9/4)
     constexpr float kRestore = 1.5F;
     const float x = static_cast<float>(u) * scale_;
     const float y = static_cast<float>(v) * scale_;

@@ -42,9 +42,9 @@ TriangleMesh MakeBall(float radius_m, int segments) {
 
 TriangleMesh MakeCapsule(float radius_m, float length_m, int segments) {
   TriangleMesh mesh;
-  const int rings = segments;  // half of them belong to each half ball
+  const int rings = segments;  // half of them for each hemisphere
   for (int ring = 0; ring <= rings; ++ring) {
-    // The equator ring is there twice when there is a cylinder between the half balls.
+    // The equator ring is duplicated if there is a cylinder between the hemispheres.
     for (const float shift_m : {-0.5F, 0.5F}) {
       const bool lower = 2 * ring <= rings;
       const bool upper = 2 * ring >= rings;
@@ -105,7 +105,7 @@ TriangleMesh MakeSofa(float width_m, float depth_m, float seat_height_m) {
 }
 
 TriangleMesh MakeRoom(const Eigen::Vector3f& size_m) {
-  // Rays hit a face from either side, so a box seen from inside is a room.
+  // Faces are two-sided, so a box seen from inside is a room.
   return BoxAt(size_m, {0.0F, size_m.y() / 2, 0.0F});
 }
 

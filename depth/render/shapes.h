@@ -10,7 +10,7 @@ namespace ossa::depth {
 
 TriangleMesh MakeBox(const Eigen::Vector3f& size_m);
 TriangleMesh MakeBall(float radius_m, int segments = 16);
-/// Axis along y; `length_m` is the distance between the centres of the two half balls.
+/// Axis along y; `length_m` is the distance between the centres of the two hemispheres.
 TriangleMesh MakeCapsule(float radius_m, float length_m, int segments = 12);
 /// A board with its upper face at y = height_m on four legs that stand on y = 0.
 TriangleMesh MakeTable(const Eigen::Vector3f& size_m);
@@ -21,7 +21,7 @@ TriangleMesh MakeSofa(float width_m, float depth_m, float seat_height_m);
 /// A room seen from inside: floor at y = 0, walls and ceiling; centred on x = z = 0.
 TriangleMesh MakeRoom(const Eigen::Vector3f& size_m);
 
-/// One mesh of both.
+/// Appends `more` to `mesh`.
 void Append(TriangleMesh& mesh, const TriangleMesh& more);
 /// The mesh moved by a rigid (or scaling) transform.
 TriangleMesh Moved(TriangleMesh mesh, const Eigen::Affine3f& to_from_mesh);

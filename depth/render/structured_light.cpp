@@ -12,7 +12,7 @@ namespace {
 
 // Constants: chosen by hand.
 
-// Neighbours that differ by more than this share of their depth lie on two surfaces.
+// Neighbours that differ by more than this share of their depth are on different surfaces.
 constexpr float kEdgeShare = 0.03F;
 
 enum Stream : uint64_t {
@@ -25,7 +25,7 @@ enum Stream : uint64_t {
   kStreamCount
 };
 
-/// What the pixels of one matching window have in common.
+/// Values shared by the pixels of a matching window.
 struct Window {
   uint64_t chance = 0;
   float noise_px = 0.0F;
@@ -46,14 +46,14 @@ class Sensor {
         shift_u_(width_, height_, ComputeCell_px(options, scale_), Hash(seed, kShiftU)),
         shift_v_(width_, height_, ComputeCell_px(options, scale_), Hash(seed, kShiftV)) {
     for (uint64_t stream = 0; stream < kStreamCount; ++stream) seeds_[stream] = Hash(seed, stream);
-    // The pattern's windows are of the sensor: fewer pixels where the image is scaled down.
+    // Windows have a fixed size on the sensor: fewer pixels in downscaled images.
     window_ = std::max(1, Rounded(static_cast<float>(options.window_px) * scale_));
     disparity_times_depth_ =
         static_cast<float>(camera.fx / scale_ * options.baseline_m);  // px of 640 × m
   }
 
   void ReadRowOfWindows(int row, SensorImage& image) const {
-    // Windows slide along the rows, so each row of windows starts somewhere else.
+    // Each row of windows has another phase.
     const int phase =
         static_cast<int>(Hash(seeds_[kPhase], static_cast<uint64_t>(row)) % 8) % window_;
     for (int u0 = -phase; u0 < width_; u0 += window_) {
@@ -79,7 +79,7 @@ class Sensor {
     return {Hash(seeds_[kChance], place), Normal(Hash(seeds_[kWindowNoise], place))};
   }
 
-  /// False where no surface is within reach of the window's shift: most of an empty image.
+  /// Whether a surface is within reach of the window's shift; in a mostly empty image few are.
   bool AnythingAround(int u0, int v0) const {
     const int reach = window_ + 1;
     for (const int v : {v0 - reach, v0, v0 + reach}) {
@@ -92,8 +92,7 @@ class Sensor {
     return false;
   }
 
-  /// Reads pixel (u, v) and notes the rendered pixel it came from; leaves both alone when there is
-  /// no reading.
+  /// Measures pixel (u, v) and stores its source pixel; leaves both unset without a reading.
   void Read(int u, int v, const Window& window, SensorImage& image) const {
     const int from_u = std::clamp(u + Rounded(lateral_px_ * shift_u_.At(u, v)), 0, width_ - 1);
     const int from_v = std::clamp(v + Rounded(lateral_px_ * shift_v_.At(u, v)), 0, height_ - 1);
@@ -122,7 +121,7 @@ class Sensor {
     return Uniform(chance, 3) < share;
   }
 
-  /// Depth of the neighbour on another surface, 0 where there is none.
+  /// Depth of a neighbour on another surface, 0 if there is none.
   float AcrossTheEdge(int u, int v) const {
     const float here_m = rendered_.depth_m.at(u, v);
     const int reach = window_ / 2 + 1;
@@ -137,7 +136,7 @@ class Sensor {
   }
 
   uint16_t Quantised_mm(float depth_m, float window_noise, uint64_t pixel) const {
-    // Half of the variance belongs to the window, half to the pixel: neighbours go together.
+    // Half of the variance is shared by the window, half is independent per pixel.
     const float noise_px = static_cast<float>(options_.disparity_noise_px) * 0.70710678F *
                            (window_noise + Normal(Hash(seeds_[kPixelNoise], pixel)));
     const auto step_px = static_cast<float>(options_.disparity_step_px);

@@ -14,9 +14,9 @@ namespace {
 
 enum Stream : uint64_t { kPatches, kNoise, kEdges };
 
-/// Light that comes back from a pixel's surface and how far it seems to be.
+/// Amplitude and apparent depth of the returned light.
 struct Echo {
-  float light = 0.0F;  // 0: nothing is there
+  float light = 0.0F;  // 0: no surface
   float depth_m = 0.0F;
 };
 
@@ -32,7 +32,7 @@ class Sensor {
         noise_seed_(Hash(seed, kNoise)),
         edge_seed_(Hash(seed, kEdges)) {}
 
-  /// Reads pixel (u, v); leaves it alone when there is no reading.
+  /// Measures pixel (u, v); leaves it unset without a reading.
   void Read(int u, int v, SensorImage& image) const {
     const Echo own = EchoAt(u, v);
     if (own.light <= 0.0F) return;
@@ -66,7 +66,7 @@ class Sensor {
     return std::abs(there_m - here_m) > Float(options_.edge_share) * std::min(here_m, there_m);
   }
 
-  /// Of the pixel's own surface: its light, and its depth with what comes by way of its neighbours.
+  /// Echo of the pixel's own surface, including light by way of its neighbours.
   Echo EchoAt(int u, int v) const {
     const float depth_m = rendered_.depth_m.at(u, v);
     if (depth_m <= 0.0F) return {};
@@ -82,14 +82,14 @@ class Sensor {
   }
 
   bool IsLit(float x, float y) const {
-    constexpr double kEverywhere = 89.0;  // degrees, of a tangent that can be had; by hand
+    constexpr double kEverywhere = 89.0;  // degrees; by hand: its tangent is finite
     if (options_.reach_x_deg > kEverywhere || options_.reach_y_deg > kEverywhere) return true;
     const float a = x / Float(std::tan(options_.reach_x_deg * kDegree));
     const float b = y / Float(std::tan(options_.reach_y_deg * kDegree));
     return a * a + b * b <= 1.0F;
   }
 
-  /// How much nearer than it is the bottom of an inner corner seems; 0 elsewhere.
+  /// Depth error of concave corners, which appear nearer; 0 elsewhere.
   float CornerFilling_m(int u, int v, float depth_m) const {
     if (options_.corner_filling <= 0.0) return 0.0F;
     const int reach =
@@ -101,7 +101,7 @@ class Sensor {
       const float one_m = rendered_.depth_m.at(u + du, v + dv);
       const float other_m = rendered_.depth_m.at(u - du, v - dv);
       if (one_m <= 0.0F || other_m <= 0.0F) continue;
-      // Less and less from beyond a gap: what stands before the surface is no wall of its corner.
+      // Decreases across depth gaps: a surface in front is not a wall of the corner.
       const float most_m = 3.0F * Float(options_.corner_reach_m);
       const float near = std::max(0.0F, 1.0F - std::abs(one_m - depth_m) / most_m) *
                          std::max(0.0F, 1.0F - std::abs(other_m - depth_m) / most_m);
@@ -110,8 +110,8 @@ class Sensor {
     return Float(options_.corner_filling) * deepest_m;
   }
 
-  /// The pixel's light together with its neighbours' share of it. Where another surface has a part
-  /// in it, `mixed` is set, and `source` is the pixel whose surface is nearest to what is measured.
+  /// The pixel's echo, mixed with its neighbours'. If another surface contributes, `mixed` is set,
+  /// and `source` is the pixel whose surface is nearest to the measurement.
   Echo Mixed(const Echo& own, int u, int v, int32_t& source, bool& mixed) const {
     constexpr std::array<std::pair<int, int>, 4> kAround = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
     std::array<Echo, 4> around;
@@ -140,7 +140,7 @@ class Sensor {
     return echo;
   }
 
-  /// Phase noise grows as the light that comes back shrinks.
+  /// Phase noise increases with decreasing amplitude.
   float Deviation_m(const Echo& echo) const {
     const float phase_m =
         Float(options_.noise_per_m2) * Float(options_.usual_reflectance) / echo.light;

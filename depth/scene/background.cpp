@@ -5,7 +5,7 @@
 namespace ossa::depth {
 namespace {
 
-constexpr uint8_t kSaturated = 250;  // frames, so that they fit a byte
+constexpr uint8_t kSaturated = 250;  // frames; a bound, so that counts fit a byte
 
 bool SameSurface(float a_m, float b_m, float tolerance = 1.0F) {
   return std::abs(a_m - b_m) < tolerance * DepthTolerance(b_m);
@@ -17,9 +17,10 @@ bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
     const bool valid = grid.valid(i), same = SameSurface(grid.z(i), state.surface_m[n]);
-    // Single ands: half the readings are a little farther away, which no processor foresees.
+    // Non-short-circuiting: half of the readings are slightly farther away, which branch prediction
+    // cannot learn.
     const bool is_known = (state.steady[n] >= options.steady_frames) & valid;
-    // Nearer things are people passing; a surface that is suddenly farther away is not.
+    // Nearer surfaces are passing people; a surface that is suddenly farther away is not.
     const bool is_farther = (grid.z(i) > state.surface_m[n]) & !same;
     known += is_known ? 1 : 0;
     moved += (is_known & is_farther) ? 1 : 0;
@@ -73,10 +74,10 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
       state.surface_m[n] += 0.1F * (z - state.surface_m[n]);
       if (state.steady[n] < kSaturated) ++state.steady[n];
     } else if (!claimed[n] && (z > state.surface_m[n] || state.steady[n] == 0)) {
-      state.surface_m[n] = z;  // something farther away came into view
+      state.surface_m[n] = z;  // a farther surface was uncovered
       state.steady[n] = 1;
     } else if (!claimed[n]) {
-      --state.steady[n];  // something unclaimed stands before it: moved furniture, in time
+      --state.steady[n];  // an unclaimed surface in front of it: eventually moved furniture
     }
   }
 }

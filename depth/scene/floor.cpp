@@ -20,17 +20,17 @@ float Height(const Vector4f& plane, const Vector3f& p) { return plane.head<3>().
 
 constexpr float kLeastTolerance_m = 0.015F;
 
-// How far a measurement of the plane may lie off it: depth errors run along the line of sight, and
-// a floor is seen at a grazing angle.
+// Tolerated distance of a measurement from the plane: depth errors are along the line of sight, and
+// floors are seen at grazing angles.
 float Tolerance(const Vector4f& plane, const Vector3f& p) {
   const float along = std::abs(plane.head<3>().dot(p)) / p.norm();
   return kLeastTolerance_m + along * DepthTolerance(p.z());
 }
 
-// No tolerance there is larger, whatever the plane: that of looking straight at it. It spares most
-// points the root above.
+// Upper bound of Tolerance for any plane: that of frontal view. It avoids the square root above for
+// most points.
 float MostTolerance(const Vector3f& p) {
-  constexpr float kMostAlong = 1.001F;  // times the tolerance: 1, and what rounding may add
+  constexpr float kMostAlong = 1.001F;  // times the tolerance: 1, plus rounding
   return kLeastTolerance_m + kMostAlong * DepthTolerance(p.z());
 }
 
@@ -39,14 +39,16 @@ bool OnPlane(const Vector4f& plane, const Vector3f& p) {
   return off_m < MostTolerance(p) && off_m < Tolerance(plane, p);
 }
 
-// A measurement, and which way the surface runs there up the image: unit, or zero where it breaks.
+// A measurement, and the direction of the surface there up the image: unit, or zero at depth
+// discontinuities.
 struct Measured {
   Vector3f at_m;
   Vector3f up_image;
 };
 
-// A plane askew between a floor and a wall has the feet of both within its tolerance, and may have
-// more of them than a narrow strip of floor has; but neither surface runs along it.
+// Whether the surface runs along the plane. An oblique plane between floor and wall has the edges
+// of both within tolerance, and possibly more inliers than a narrow strip of floor; but neither
+// surface runs along it.
 bool RunsAlong(const Vector4f& plane, const Measured& p) {
   constexpr float kMostSine = 0.7F;  // by hand, of 45 degrees
   return std::abs(plane.head<3>().dot(p.up_image)) < kMostSine;
@@ -85,7 +87,7 @@ std::optional<Vector4f> PlaneThrough(const Vector3f& a, const Vector3f& b, const
   return Vector4f(normal.x(), normal.y(), normal.z(), -normal.dot(a));
 }
 
-// Least squares through the inliers: the normal is the direction of least spread.
+// Least squares through the inliers: the normal is the direction of smallest variance.
 Vector4f Refine(const std::vector<Measured>& points, const Vector4f& plane,
                 const FloorOptions& options) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -105,16 +107,16 @@ Vector4f Refine(const std::vector<Measured>& points, const Vector4f& plane,
   return Eigen::Vector4d(normal.x(), normal.y(), normal.z(), -normal.dot(mean)).cast<float>();
 }
 
-// Whether up is rather against the line of sight than up the image.
-bool LooksDown(const FloorOptions& options) {
+// Whether `up` is closer to the reverse viewing direction than to up in the image.
+bool IsLookingDown(const FloorOptions& options) {
   return std::abs(options.up.z()) > std::abs(options.up.y());
 }
 
-// Whether something was measured in enough squares of 10 cm of the plane.
+// Whether enough 10 cm squares of the plane contain measurements.
 bool IsVisible(const std::vector<Measured>& points, const Vector4f& plane,
                const FloorOptions& options) {
   const double min_area_m2 = options.min_area_m2;
-  const int ahead = LooksDown(options) ? 1 : 2;  // the axis over the floor beside x
+  const int ahead = IsLookingDown(options) ? 1 : 2;  // the second horizontal axis, besides x
   std::set<std::pair<int, int>> squares;
   for (const Measured& p : points) {
     if (!OnPlane(plane, p.at_m)) continue;
@@ -125,23 +127,23 @@ bool IsVisible(const std::vector<Measured>& points, const Vector4f& plane,
   return min_area_m2 <= 0;
 }
 
-// `low`: from the image's top to its bottom.
+// `low`: sorted from the top of the image to the bottom.
 Fit Search(const std::vector<Measured>& low, const std::vector<Measured>& sample,
            const FloorOptions& options) {
-  constexpr int kTrials = 200;  // floors that fill a fifth of the sample: missed once in 5
+  constexpr int kTrials = 200;  // floors with a fifth of the sample are missed once in 5
                                 // (1 - 0.2^3)^200; the next frames find them
-  // Every other trial draws from the lowest quarter: of a sensor that looks level the floor is a
-  // strip at the image's lower border. One of a tenth of the sample is missed once in 700
-  // (1 - 0.4^3)^100 where it would be missed four times in five (1 - 0.1^3)^200.
-  constexpr size_t kLowest = 4;  // by hand, one part in so many
+  // Every other trial samples the lowest quarter: for a level sensor the floor is a strip at the
+  // lower image border. A floor with a tenth of the sample is missed once in 700, (1 - 0.4^3)^100,
+  // instead of four times in five, (1 - 0.1^3)^200.
+  constexpr size_t kLowest = 4;  // by hand: one in this many
   const Vector3f up = options.up.cast<float>();
   std::mt19937_64 random(options.seed);
   Fit best;
   for (int trial = 0; trial < kTrials; ++trial) {
     const size_t from = trial % 2 == 0 ? 0 : low.size() - low.size() / kLowest;
     const auto pick = [&] { return low[from + random() % (low.size() - from)].at_m; };
-    // Draws have names: in which order arguments are drawn is the compiler's to choose. This is
-    // g++'s, from when they stood there.
+    // Draws are named because the evaluation order of arguments is unspecified; this is the order
+    // that g++ used.
     const Vector3f c = pick(), b = pick(), a = pick();
     const auto plane = PlaneThrough(a, b, c, up);
     if (!plane || !Allowed(*plane, options)) continue;
@@ -163,8 +165,7 @@ std::optional<FloorPlane> Confirmed(const std::vector<Measured>& points, Vector4
   return FloorPlane{plane.cast<double>()};
 }
 
-// Over three cells up and down, as far as they are measured: one alone is lost in the sensor's
-// steps.
+// Over three cells up and down, if measured: a single cell is dominated by quantisation.
 Vector3f UpImage(const PointGrid& grid, int x, int y) {
   constexpr int kCells = 3;  // by hand
   const int above = grid.cell(x, std::max(0, y - kCells));
@@ -188,7 +189,7 @@ double FloorPlane::TiltDown_rad() const { return std::atan2(-coefficients[2], co
 
 std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
                                     const FloorOptions& options) {
-  const bool anywhere = LooksDown(options);  // no row of the image is lower than another
+  const bool anywhere = IsLookingDown(options);  // image rows are not ordered by height
   std::vector<Measured> points, low;
   for (int y = 0; y < grid.height; y += 2) {
     for (int x = y / 2 % 2; x < grid.width; x += 2) {
@@ -209,7 +210,7 @@ std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
     }
   }
   if (!found) {
-    if (++state.missed > 15) state.plane.reset();  // half a second: the sensor may have moved
+    if (++state.missed > 15) state.plane.reset();  // half a second: the sensor may have been moved
     return std::nullopt;
   }
   if (state.plane && state.missed == 0) {

@@ -14,35 +14,34 @@ struct FloorPlane {
   double HeightOf(const Eigen::Vector3d& position_m) const {
     return coefficients.head<3>().dot(position_m) + coefficients[3];
   }
-  /// How far the sensor looks down, radians (negative: up).
+  /// Downward tilt of the sensor, radians (negative: up).
   double TiltDown_rad() const;
 };
 
-/// Constants: set by hand for the sensors of people's rooms: on shelves, tables and tripods.
+/// Constants: set by hand for sensors in homes: on shelves, tables and tripods.
 struct FloorOptions {
-  Eigen::Vector3d up = Eigen::Vector3d::UnitY();  // about; unit vector, camera space
+  Eigen::Vector3d up = Eigen::Vector3d::UnitY();  // approximate; unit vector, camera space
   double max_tilt_rad = 0.79;  // the sensor's tilt and roll stay below 45 degrees
-  double min_height_m = 0.25;  // of the sensor over the floor
+  double min_height_m = 0.25;  // height of the sensor over the floor
   double max_height_m = 3.5;
-  double min_area_m2 = 0.5;       // visible floor, counted in squares of 10 cm
-  double max_share_below = 0.03;  // share of all points: nothing lies under a floor (but mirrors)
-  double smoothing = 0.25;        // share of a new frame's plane in the reported one
+  double min_area_m2 = 0.5;       // visible floor area, in squares of 10 cm
+  double max_share_below = 0.03;  // share of all points: few are below a floor (reflections)
+  double smoothing = 0.25;        // weight of a new frame's plane in the reported one
   uint64_t seed = 1;
 };
 
-/// Of a sensor under the ceiling that looks down by 52 degrees or more. By hand; no sensor is
-/// higher than a room of 4 m.
+/// Options for a sensor under the ceiling that looks down by 52 degrees or more. By hand; sensors
+/// are not higher than a room of 4 m.
 FloorOptions FloorOptionsFromAbove();
 
-/// What is remembered between frames.
+/// State between frames.
 struct FloorState {
   std::optional<FloorPlane> plane;
   int missed = 0;  // frames since the plane was last confirmed
 };
 
-/// The floor of this frame, or nothing when it is not seen with confidence. Random sample consensus
-/// with the prior of FloorOptions::up, where gravity points down the image; the plane before is
-/// tried first.
+/// The floor of this frame, or none if it is not seen with confidence. RANSAC with the prior
+/// FloorOptions::up; the previous plane is tried first.
 std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
                                     const FloorOptions& options = {});
 

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kLeastTolerance_m = 0.025;
 
-// Bounds of upright pieces of one plane.
+// Bounds of upright patches of one plane.
 class UprightBounds {
  public:
   UprightBounds(const FloorPlane& floor, const Vector3d& along, const FurnitureOptions& options)
@@ -43,7 +43,7 @@ class UprightBounds {
   double area_m2_ = 0, low_m_ = 1e9, high_m_ = -1e9, left_m_ = 1e9, right_m_ = -1e9;
 };
 
-// How far a surface reaches over the floor, from sums over its cells.
+// Horizontal extent of a surface, from sums over its cells.
 struct Spread {
   double area_m2 = 0;
   Vector3d sum = Vector3d::Zero();
@@ -54,8 +54,8 @@ struct Spread {
     sum += m2 * p;
     squares += m2 * p * p.transpose();
   }
-  // Of a rectangle's shorter side: its variance is a twelfth of the side's square. The smallest
-  // eigenvalue is the height's, which is the same everywhere.
+  // The shorter side of the rectangle with this variance (a twelfth of the square of the side). The
+  // smallest eigenvalue is that of the height, which is constant.
   double Width_m() const {
     const Vector3d mean = sum / area_m2;
     const Eigen::Matrix3d covariance = squares / area_m2 - mean * mean.transpose();
@@ -64,16 +64,16 @@ struct Spread {
   }
 };
 
-// Area of a cell's patch of a horizontal surface.
+// Area of a horizontal surface within a cell.
 double HorizontalArea_m2(const PointGrid& grid, const Vector3d& up, int cell) {
-  constexpr double kMostSlanted = 0.05;  // cosine; beyond, the area is anybody's guess
+  constexpr double kMostSlanted = 0.05;  // cosine; below, the area is undefined
   const Vector3d p = grid.at(cell).cast<double>();
   return static_cast<double>(grid.Area(cell)) /
          std::max(kMostSlanted, std::abs(up.dot(p)) / p.norm());
 }
 
-// Heights of the cells that lie level, 0 for the others: of an upright surface the cell above is
-// higher by the cells' distance, of a level one it is as high.
+// Heights of the cells on level surfaces, 0 for others: on upright surfaces the cell above is
+// higher by the cell spacing, on level ones it is equally high.
 std::vector<float> LevelHeights(const PointGrid& grid, const FloorPlane& floor,
                                 const std::vector<uint8_t>& room, const FurnitureOptions& options) {
   std::vector<float> height_m(static_cast<size_t>(grid.cells()), 0.0F), level_m = height_m;
@@ -98,7 +98,7 @@ std::vector<float> LevelHeights(const PointGrid& grid, const FloorPlane& floor,
   return level_m;
 }
 
-// The cells around `start` at one height; they are taken out of `level_m`.
+// Extracts the cells around `start` at one height; removes them from `level_m`.
 std::vector<int> TakeTop(const PointGrid& grid, const FloorPlane& floor, int start,
                          std::vector<float>& level_m, Spread& spread) {
   std::vector<int> top(1, start);
@@ -115,7 +115,8 @@ std::vector<int> TakeTop(const PointGrid& grid, const FloorPlane& floor, int sta
       float& height_m = level_m[static_cast<size_t>(next)];
       if (height_m == 0) continue;
       const double off_m = std::abs(static_cast<double>(height_m) - mean_m);
-      // Unlike the floor's, a top's height is the mean of what is seen of it: half the tolerance.
+      // The height of a table top is, unlike the floor's, the mean of its own cells: half the
+      // tolerance.
       if (off_m > 0.5 * MostHeightTolerance(grid.at(next)) ||
           off_m > 0.5 * HeightTolerance(floor, grid.at(next)))
         continue;
@@ -135,7 +136,7 @@ double HeightTolerance(const FloorPlane& floor, const Eigen::Vector3f& p) {
 }
 
 double MostHeightTolerance(const Eigen::Vector3f& p) {
-  constexpr double kMostAlong = 1.001;  // times the tolerance: 1, and what rounding may add
+  constexpr double kMostAlong = 1.001;  // times the tolerance: 1, plus rounding
   return kLeastTolerance_m + kMostAlong * static_cast<double>(DepthTolerance(p.z()));
 }
 

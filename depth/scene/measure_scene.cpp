@@ -19,7 +19,7 @@ bool ShowsAnotherScene(const PointGrid& grid, const SceneState& state,
   return both > options.changed_cells && 2 * elsewhere > both;
 }
 
-// A frame of another size or of another scene starts over. Returns whether it does.
+// Resets the state for a frame of another size or scene. Returns whether it did.
 bool ForgetAnotherScene(const DepthFrame& frame, const PointGrid& grid, SceneState& state,
                         const SceneOptions& options) {
   const bool same_size =

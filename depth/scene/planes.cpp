@@ -14,16 +14,16 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kBlock = 4;    // cells a side
-constexpr int kFewest = 11;  // measured cells of a block's 16
+constexpr int kFewest = 11;  // minimum measured cells of a block's 16
 // Quantisation of the Kinect v1 in inverse depth, measured on real frames (`ossa experiment
 // sensor`).
 constexpr double kStep_per_m = 2.9e-3;
-// A flat block shows the quantisation (0.29 steps) and jitter of about one step.
+// A flat block has the quantisation error (0.29 steps) and jitter of about one step.
 constexpr double kFlatRms_per_m = 1.1 * kStep_per_m;
-constexpr double kJoinRms_per_m = 1.3 * kStep_per_m;  // of a block against the plane it is to join
-constexpr double kCellOff_per_m = 2.6 * kStep_per_m;  // of a cell on the plane
+constexpr double kJoinRms_per_m = 1.3 * kStep_per_m;  // of a block relative to its plane
+constexpr double kCellOff_per_m = 2.6 * kStep_per_m;  // of a cell relative to the plane
 
-// Sums for the least-squares plane d = a x + b y + c of inverse depth over cells.
+// Accumulates the least-squares plane d = a x + b y + c of inverse depth over cells.
 struct Sums {
   Matrix3d aa = Matrix3d::Zero();
   Vector3d ad = Vector3d::Zero();
@@ -87,7 +87,7 @@ class PieceGrower {
       if (block_taken_[seed]) continue;
       Sums sums;
       const int blocks = Grow(seed, sums);
-      constexpr int kFewBlocks = 4;  // less is not worth calling flat
+      constexpr int kFewBlocks = 4;  // fewer are not called flat
       if (blocks < kFewBlocks) continue;
       const Vector3d plane = sums.Fit();
       if (Claim(plane, seed, static_cast<int>(pieces.size()))) pieces.push_back(MakePiece(plane));
@@ -112,8 +112,8 @@ class PieceGrower {
     if (sums.n >= kFewest) rms_[block] = sums.Rms(sums.Fit());
   }
 
-  // Blocks join while they lie on the plane of those before; it is refitted whenever they are half
-  // as many again.
+  // Region growing: blocks join while they are on the current plane, which is refitted whenever
+  // their number has grown by half.
   int Grow(size_t seed, Sums& sums) {
     std::vector<size_t> front = {seed};
     block_taken_[seed] = 1;
@@ -141,8 +141,8 @@ class PieceGrower {
     return static_cast<int>(front.size());
   }
 
-  // Marks the cells on the plane that hang together with the seed block, whole blocks or not, as
-  // the piece's. False when there are none.
+  // Assigns the cells on the plane that are connected to the seed block, in whole blocks or not, to
+  // the piece. False if there are none.
   bool Claim(const Vector3d& plane, size_t seed, int piece) {
     front_.clear();
     const auto claim_if_on_plane = [&](size_t place, int x, int y) {
@@ -161,7 +161,7 @@ class PieceGrower {
     for (size_t i = 0; i < front_.size(); ++i) {
       const auto [x, y] = front_[i];
       const size_t place = IndexWithRim(x, y), row = static_cast<size_t>(stride_);
-      for (const int step : {1, kRim}) {  // beyond the grid's edge nothing is free
+      for (const int step : {1, kRim}) {  // the border around the grid is never free
         const auto columns = static_cast<size_t>(step), rows = columns * row;
         claim_if_on_plane(place + columns, x + step, y);
         claim_if_on_plane(place - columns, x - step, y);
@@ -179,7 +179,7 @@ class PieceGrower {
     return piece;
   }
 
-  // One walk over the grid gives every piece its cells in ascending order.
+  // Distributes cells to pieces in one pass, in ascending order.
   void HandOutCells(std::vector<FlatPiece>& pieces) const {
     for (int y = 0; y < grid_.height; ++y) {
       for (int x = 0; x < grid_.width; ++x) {
@@ -204,13 +204,13 @@ class PieceGrower {
 
   double Area(int cell, const Vector3d& normal) const {
     const Vector3d p = grid_.at(cell).cast<double>();
-    constexpr double kMostSlanted = 0.1;  // cosine; beyond, the area is anybody's guess
+    constexpr double kMostSlanted = 0.1;  // cosine; below, the area is undefined
     return static_cast<double>(grid_.Area(cell)) /
            std::max(kMostSlanted, std::abs(normal.dot(p)) / p.norm());
   }
 
-  static constexpr int kFree = -1, kTaken = -2;  // no piece's yet; never any piece's
-  static constexpr int kRim = 3;  // around the grid, never any piece's: as far as Claim reaches
+  static constexpr int kFree = -1, kTaken = -2;  // unassigned; excluded
+  static constexpr int kRim = 3;  // border around the grid, excluded: as wide as Claim reaches
 
   size_t IndexWithRim(int x, int y) const {
     return static_cast<size_t>((y + kRim) * stride_ + x + kRim);
@@ -221,10 +221,10 @@ class PieceGrower {
   std::vector<Sums> sums_;
   std::vector<double> rms_;
   std::vector<uint8_t> block_taken_;
-  int stride_;                             // of the two arrays that have a rim
-  std::vector<int> piece_of_;              // the number of a cell's piece, kFree or kTaken
-  std::vector<double> inverse_depth_;      // 1/m, 0 where nothing is free
-  std::vector<std::array<int, 2>> front_;  // cells that Claim has taken, (x, y)
+  int stride_;                             // of the two arrays with a border
+  std::vector<int> piece_of_;              // piece index of a cell, kFree or kTaken
+  std::vector<double> inverse_depth_;      // 1/m, 0 if not free
+  std::vector<std::array<int, 2>> front_;  // cells assigned by Claim, (x, y)
 };
 
 }  // namespace

@@ -15,16 +15,16 @@ struct FlatPlane {
   double At(int x, int y) const { return slope_x * x + slope_y * y + at_zero; }
 };
 
-/// A flat, connected piece of the scene. The error of a structured-light sensor is the same
-/// everywhere in inverse depth, so fits need no weights.
+/// A flat connected component of the scene. The error of a structured-light sensor is constant in
+/// inverse depth, so fits need no weights.
 struct FlatPiece : FlatPlane {
   Eigen::Vector3d normal{0, 0, -1};  // unit, towards the sensor, camera space
-  double area_m2 = 0;                // of the surface itself, not of its frontal view
+  double area_m2 = 0;                // of the surface, not of its projection
   std::vector<int> cells;            // ascending
 };
 
-/// Flat pieces among the cells with ignore = 0, largest first: grown from the flattest blocks of
-/// 4 x 4 cells, refitted while they grow.
+/// Segments flat pieces among the cells with ignore = 0, largest first: region growing from the
+/// flattest blocks of 4 x 4 cells, with refits.
 std::vector<FlatPiece> FlatPieces(const PointGrid& grid, const std::vector<uint8_t>& ignore);
 
 }  // namespace ossa::depth

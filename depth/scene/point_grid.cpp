@@ -5,8 +5,8 @@
 namespace ossa::depth {
 namespace {
 
-// The cell's reading: the first of a few fixed pixels that has one. Averages would invent points
-// between a person and the wall behind.
+// The first valid reading of a few fixed pixels of the cell. Averages would invent points between a
+// person and the wall behind.
 uint16_t ReadFirstDepth(const DepthView& depth, int u0, int v0, int step, uint16_t max_mm) {
   const int middle = step / 2;
   const int places[5][2] = {
@@ -20,13 +20,13 @@ uint16_t ReadFirstDepth(const DepthView& depth, int u0, int v0, int step, uint16
   return 0;
 }
 
-// By hand: of 320 and 640 columns it makes two and four pixels, about 1.5 cm at 2 m.
+// By hand: cells of two pixels for 320 columns and four for 640, about 1.5 cm at 2 m.
 constexpr int kCellsInRow = 160;  // cells
 
 }  // namespace
 
 int CellPixels(int image_width) {
-  // Rounded: an image of 474 columns has 158 cells a row, and not 237.
+  // Rounded: 474 columns give 158 cells per row, not 237.
   return std::max(1, (image_width + kCellsInRow / 2) / kCellsInRow);
 }
 

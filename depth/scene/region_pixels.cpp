@@ -11,8 +11,8 @@
 namespace ossa::depth {
 namespace {
 
-// What cells are to a region: theirs, at its rim, or inside, where every valid cell around is
-// theirs.
+// Relation of a cell to a region: outside, at its border, member, or inside (all valid neighbours
+// are members).
 enum class Place : uint8_t { kElsewhere, kRim, kMember, kInside };
 
 bool IsInside(const PointGrid& grid, const std::vector<Place>& place, int x, int y) {
@@ -43,15 +43,15 @@ std::vector<Place> ClassifyCells(const PointGrid& grid, const Region& region) {
   return place;
 }
 
-// How far a pixel may be from what it is the surface of.
+// Largest depth difference between a pixel and its cell.
 float FollowTolerance(float z_m) { return 0.06F + DepthTolerance(z_m); }
 
-// Pixels that are judged side by side.
-constexpr int kLanes = 4;  // as SSE2 registers hold
+// Pixels processed together.
+constexpr int kLanes = 4;  // of an SSE2 register
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using LaneMask = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
 
-// The valid cells around a pixel, by which it is told whether it is the region's.
+// The valid cells around a pixel, which decide whether it belongs to the region.
 class Around {
  public:
   Around() = default;
@@ -61,15 +61,15 @@ class Around {
         if (!grid.Contains(x + dx, y + dy)) continue;
         const int cell = grid.cell(x + dx, y + dy);
         if (!grid.valid(cell)) continue;
-        // The own cell wins ties against its neighbours.
+        // Ties are won by the pixel's own cell.
         cells_[count_++] = {grid.z(cell), dx != 0 || dy != 0 ? 0.02F : 0.0F,
                             place[static_cast<size_t>(cell)] >= Place::kMember ? ~0 : 0};
       }
     }
   }
 
-  // A pixel follows the nearest cell of its depth. Of as many pixels as there are lanes, `count` or
-  // less: whether they are the region's.
+  // A pixel belongs to the cell nearest in depth. Classifies up to kLanes pixels, `count` of them
+  // valid.
   LaneMask AreMine(const uint16_t* mm, int count) const {
     Lanes z_m = {}, best_m = {};
     for (int l = 0; l < kLanes; ++l) {
@@ -89,7 +89,7 @@ class Around {
  private:
   struct Cell {
     float z_m = 0, handicap_m = 0;
-    int32_t is_member = 0;  // or all bits
+    int32_t is_member = 0;  // or all bits set
   };
   static Lanes Distance(float from_m, const Lanes& to_m) {
     const Lanes off_m = from_m - to_m;
@@ -100,10 +100,10 @@ class Around {
   size_t count_ = 0;
 };
 
-// What is known of a row of pixels.
+// Classification of pixels.
 enum Pixel : uint8_t { kNot, kMine, kUndecided };
 
-// Where a region and its rim lie, first and last.
+// Bounding box of a region and its border, first and last cell.
 struct CellBox {
   int left = 0, right = -1, top = 0, bottom = -1;
 };
@@ -120,8 +120,7 @@ CellBox BoundCells(const PointGrid& grid, const Region& region) {
   return box;
 }
 
-// A row of cells at a time: which of its pixels, from the box's left to its right, are the
-// region's.
+// Classifies the pixels of the region's box, one row of cells at a time.
 class PixelRows {
  public:
   PixelRows(const DepthView& depth, const PointGrid& grid, const std::vector<Place>& place,
@@ -153,7 +152,7 @@ class PixelRows {
     }
   }
 
-  // Of row `v` of the cells last entered: kNot or kMine of each pixel.
+  // Classifies row `v` of the current row of cells: kNot or kMine per pixel.
   const std::vector<uint8_t>& Judge(int v) {
     const uint16_t* mm = depth_.data_mm + static_cast<ptrdiff_t>(v) * depth_.stride;
     FindSure(mm + begin_, inside_z_m_.data(), otherwise_.data(), pixels_.size(), pixels_.data());
@@ -166,7 +165,7 @@ class PixelRows {
   }
 
  private:
-  static constexpr float kNowhere_m = -1e9F;  // by definition near no measurement
+  static constexpr float kNowhere_m = -1e9F;  // by definition, far from any measurement
 
   int EndOf(int x) const { return std::min(depth_.width, (x + 1) * grid_.step); }
 
@@ -177,8 +176,8 @@ class PixelRows {
     return begin_ + static_cast<int>(static_cast<const uint8_t*>(next) - pixels_.data());
   }
 
-  // Inside, whichever cell is nearest is the region's: enough that the own one is near. Without a
-  // branch, for the compiler to take many pixels at once.
+  // Inside the region all candidate cells are members: being near the own cell is sufficient.
+  // Branch-free, so that the compiler vectorises it.
   OSSA_CPU_DISPATCH static void FindSure(const uint16_t* mm, const float* inside_z_m,
                                          const uint8_t* otherwise, size_t count, uint8_t* pixels) {
     for (size_t u = 0; u < count; ++u) {
@@ -189,7 +188,7 @@ class PixelRows {
     }
   }
 
-  // What is undecided of a cell's row of pixels.
+  // Decides the remaining pixels of a row of a cell by the neighbouring cells.
   void DecideByNeighbours(const uint16_t* mm, int x) {
     auto& around = around_[static_cast<size_t>(x)];
     if (!around) around.emplace(grid_, place_, x, y_);
@@ -207,15 +206,15 @@ class PixelRows {
   const PointGrid& grid_;
   const std::vector<Place>& place_;
   const CellBox box_;
-  const int begin_, end_;                      // columns of the image
-  int y_ = 0;                                  // the row of cells
-  std::vector<std::optional<Around>> around_;  // of its cells that were asked for
-  std::vector<float> inside_z_m_;              // of each pixel's cell, if it lies inside
+  const int begin_, end_;                      // image columns
+  int y_ = 0;                                  // current row of cells
+  std::vector<std::optional<Around>> around_;  // of cells requested so far
+  std::vector<float> inside_z_m_;              // depth of each pixel's cell, if inside
   std::vector<uint8_t> otherwise_, pixels_;
 };
 
-// Appends the numbers of those pixels of a row that are the region's; the first one is `begin`.
-// Most are like their neighbours.
+// Appends the indices of a row's pixels that belong to the region; the first pixel has index
+// `begin`. Most pixels equal their neighbours.
 size_t AppendRow(const std::vector<uint8_t>& row, int begin, int32_t* to) {
   constexpr size_t kEight = sizeof(uint64_t);
   constexpr uint64_t kAllMine = 0x0101010101010101U * kMine;
@@ -231,7 +230,7 @@ size_t AppendRow(const std::vector<uint8_t>& row, int begin, int32_t* to) {
       continue;
     }
     for (size_t i = 0; i < kEight; ++i) {
-      to[kept] = first + static_cast<int32_t>(i);  // no branch: rims are ragged
+      to[kept] = first + static_cast<int32_t>(i);  // branch-free: borders are unpredictable
       kept += row[u + i];
     }
   }
@@ -251,7 +250,7 @@ std::vector<int32_t> CollectPixels(const DepthFrame& frame, const PointGrid& gri
   const CellBox box = BoundCells(grid, region);
   const auto tried =
       place.size() - static_cast<size_t>(std::count(place.begin(), place.end(), Place::kElsewhere));
-  // One more: what is written first and then not kept.
+  // One extra element for a write that is then discarded.
   std::vector<int32_t> pixels(tried * static_cast<size_t>(grid.step * grid.step) + 1);
   size_t kept = 0;
   PixelRows rows(depth, grid, place, box);

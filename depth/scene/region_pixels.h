@@ -8,8 +8,8 @@
 
 namespace ossa::depth {
 
-/// Full-resolution pixels (v * width + u, ascending) of a region of cells: each pixel follows the
-/// cell around it that is nearest in depth.
+/// Full-resolution pixels (v * width + u, ascending) of a region of cells: each pixel belongs to
+/// the neighbouring cell nearest in depth.
 std::vector<int32_t> CollectPixels(const DepthFrame& frame, const PointGrid& grid,
                                    const Region& region);
 

@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3f;
 
-// How large a flat piece must be to be furniture or a wall: larger than the flattest part of a body
-// looks at this distance. At 1 m the sensor tells 1 cm of curvature, and a flat back has 0.15 m2;
-// from 3 m on a whole person is as flat as a board.
+// Minimum area of a flat piece to be furniture or a wall: larger than the flattest part of a body
+// appears at this distance. At 1 m the sensor resolves 1 cm of curvature, and a flat back has 0.15
+// m2; from 3 m on a whole person appears flat.
 double RequireRoomArea_m2(double z_m, const FurnitureOptions& options) {
   const double far_m = std::max(0.0, z_m - 1.0);
   return std::min(0.2 + 0.12 * far_m + 0.05 * far_m * far_m, options.person_m2);
@@ -56,11 +56,11 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
   }
 }
 
-// The cells of each connected piece, ascending: one walk over the grid hands them out, where
-// sorting the pieces took longer than finding them.
+// The cells of each connected component, ascending. Cells are distributed in one pass over the
+// grid, because sorting takes longer than the labelling.
 std::vector<std::vector<int>> ConnectedCells(const PointGrid& grid,
                                              std::span<const uint8_t> ignore) {
-  constexpr int kFree = -1, kNobodys = -2;  // by convention: no piece's number
+  constexpr int kFree = -1, kNobodys = -2;  // by convention: not a component's index
   std::vector<int> piece_of(ignore.size());
   std::transform(ignore.begin(), ignore.end(), piece_of.begin(),
                  [](uint8_t ignored) { return ignored ? kNobodys : kFree; });
@@ -95,8 +95,8 @@ std::vector<std::vector<int>> ConnectedCells(const PointGrid& grid,
 
 }  // namespace
 
-// Most points are clearly higher or lower than any tolerance.
-bool OnOrUnder(const FloorPlane& floor, const Vector3f& p) {
+// Early exits for points clearly outside any tolerance.
+bool IsOnOrBelow(const FloorPlane& floor, const Vector3f& p) {
   const double height_m = floor.HeightOf(p.cast<double>());
   return height_m < MostHeightTolerance(p) && height_m < HeightTolerance(floor, p);
 }
@@ -112,7 +112,7 @@ RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane
   if (floor) {
     for (int i = 0; i < grid.cells(); ++i) {
       if (!grid.valid(i)) continue;
-      shape.room[static_cast<size_t>(i)] = OnOrUnder(*floor, grid.at(i));
+      shape.room[static_cast<size_t>(i)] = IsOnOrBelow(*floor, grid.at(i));
     }
     shape.floor = shape.room;
   }

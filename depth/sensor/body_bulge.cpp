@@ -7,15 +7,15 @@
 
 #include "depth/sensor/parabola_internal.h"
 
-// Constants: chosen on 840 rendered images of every noise, view, background and two sizes and on
-// the 250 real ones that depth_units_test.cpp looks at, each alone and in threes: none is hollow as
-// it is; turned round 96 % are alone and 99 % in threes where hollow ones need be twice as many as
-// round ones only. DepthCensus decides with SurfaceBend.
+// Constants: chosen on 840 rendered images of every noise, view, background and two sizes, and on
+// the 250 real ones of depth_units_test.cpp, each alone and in threes: none looks hollow; inverted,
+// 96 % do alone, and 99 % in threes if hollow stretches need be only twice as many as round ones.
+// DepthCensus decides with SurfaceBend.
 namespace ossa::depth {
 namespace {
 
-constexpr double kStep_mm = 40.0;  // from pixel to pixel, of one surface
-constexpr int kShortest = 5;       // pixels of a stretch that is looked at
+constexpr double kStep_mm = 40.0;  // maximum depth step between pixels of one surface
+constexpr int kShortest = 5;       // shortest evaluated stretch, pixels
 
 // A row or column of an image.
 struct Line {
@@ -26,13 +26,13 @@ struct Line {
 
   int size() const { return is_column ? image.height : image.width; }
   int at(int i) const { return is_column ? image.at(index, i) : image.at(i, index); }
-  bool Goes(int from, int to) const {  // on, on the same surface
+  bool Goes(int from, int to) const {  // whether it continues on the same surface
     return to >= 0 && to < size() && at(from) > 0 && at(to) > 0 &&
            std::abs(at(from) - at(to)) <= kStep_mm * units_per_mm;
   }
 };
 
-// The pixels of a line that one surface takes up, both ends among them.
+// The pixels of a line on one surface, both ends included.
 struct Stretch {
   int begin = 0, end = 0;
   int size() const { return end - begin + 1; }
@@ -45,11 +45,11 @@ Stretch StretchAt(const Line& line, int i) {
   return stretch;
 }
 
-// What is next to an end of a stretch, behind the shadow that a projector may leave.
+// What is next to an end of a stretch, beyond a projector's shadow.
 enum class Beside { kNothing, kLarger, kSmaller, kSame };
 
 Beside LookBeside(const Line& line, int end, int step) {
-  constexpr int kShadows = 20;  // side by side in an image
+  constexpr int kShadows = 20;  // shadow width, as a fraction of the image: one in this many
   constexpr int kNarrowest = 2;
   const int shadow = std::max(kNarrowest, line.image.width / kShadows);
   for (int i = end + step; i != end + step * (shadow + 1); i += step) {
@@ -62,8 +62,8 @@ Beside LookBeside(const Line& line, int end, int step) {
   return Beside::kNothing;
 }
 
-// Whether a surface stands out from what is around it, or seems to lie behind it. One that does
-// both, as the wall between a person and a corner, tells nothing.
+// Whether a surface is in front of its surroundings or behind them. If both, like a wall between a
+// person and a corner, it is not evidence.
 enum class Place { kAlone, kInFront, kBehind, kOther };
 
 Place FindPlace(const Line& line, const Stretch& stretch) {
@@ -75,18 +75,18 @@ Place FindPlace(const Line& line, const Stretch& stretch) {
   return before == Beside::kLarger || after == Beside::kLarger ? Place::kOther : Place::kBehind;
 }
 
-// Whether the line goes across a limb and not along it: a lap seen along a column is hollow.
+// Whether the line crosses a limb instead of following it: a lap is hollow along a column.
 bool GoesAcross(const Line& line, const Stretch& stretch) {
-  constexpr double kLonger = 1.2;  // than it is wide
+  constexpr double kLonger = 1.2;  // ratio of length to width
   const Line other{line.image, line.units_per_mm, !line.is_column,
                    (stretch.begin + stretch.end) / 2};
   return StretchAt(other, line.index).size() >= kLonger * stretch.size();
 }
 
-// Above 0 where z'' is, below where it is below, 0 where nobody can say.
+// Sign of z''; 0 if it is not significant.
 int ComputeBendSign(const Line& line, const Stretch& stretch) {
-  constexpr int kMostEdge = 1;     // pixels at an end that see two surfaces, too
-  constexpr double kSigmas = 3.0;  // of the bend's error
+  constexpr int kMostEdge = 1;     // mixed pixels at either end
+  constexpr double kSigmas = 3.0;  // standard deviations of the bend
   constexpr double kLeast_mm = 2.0;
   const int edge = std::min(kMostEdge, (stretch.size() - kShortest) / 2);
   std::vector<double> z;
@@ -118,11 +118,11 @@ Count CountStretches(const Line& line) {
   return count;
 }
 
-// One image after the other shows the same few stretches, wrongly bent by the same few pixels: what
-// each adds to is no evidence where it has but one or two.
+// Consecutive images show the same few stretches, wrongly bent by the same few pixels: one or two
+// per image are not evidence.
 bool IsMostly(int64_t some, int64_t others, int64_t images) {
-  constexpr int64_t kLeast = 12, kLeastAnImage = 2;  // stretches
-  constexpr double kMostly = 3.0;                    // to one
+  constexpr int64_t kLeast = 12, kLeastAnImage = 2;  // stretches in all, and per image
+  constexpr double kMostly = 3.0;                    // majority ratio
   return some >= std::max(kLeast, kLeastAnImage * images) &&
          static_cast<double>(some) > kMostly * static_cast<double>(others);
 }
@@ -130,7 +130,7 @@ bool IsMostly(int64_t some, int64_t others, int64_t images) {
 }  // namespace
 
 void BodyBulge::Add(const DepthView& image) {
-  constexpr int kLines = 160;  // of an image's width
+  constexpr int kLines = 160;  // evaluated lines per image width
   const int step = std::max(1, image.width / kLines);
   ++images_;
   for (const bool columns : {false, true}) {

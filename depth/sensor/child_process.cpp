@@ -21,14 +21,14 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw InputError(program.string() + ": no pipe to it: " + std::strerror(errno));
   }
-  constexpr int kPipeSize = 1 << 20;  // more than a frame: the child decodes ahead; bytes; by hand
+  constexpr int kPipeSize = 1 << 20;  // bytes; by hand: more than a frame, to decode ahead
   fcntl(ends[1], F_SETPIPE_SZ, kPipeSize);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  // A group of its own: Ctrl-C is for us to handle, and we end the child.
+  // In its own process group: Ctrl-C must reach only this process, which ends the child.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);

@@ -8,8 +8,8 @@
 
 namespace ossa::depth {
 
-/// A helper program whose standard output is read through a pipe; its standard error goes nowhere.
-/// Killed when destroyed.
+/// A helper program whose standard output is read through a pipe; its standard error is discarded.
+/// Killed by the destructor.
 class ChildProcess {
  public:
   ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments);
@@ -18,12 +18,12 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   enum class Outcome { kRead, kTimeout, kClosed };
-  /// Waits until output is there: kRead if so, kClosed if it ended.
+  /// Waits for output: kRead if there is some, kClosed at its end.
   Outcome WaitForOutput(std::chrono::milliseconds timeout) const;
-  /// Exactly `size` bytes; kTimeout when no byte came for so long, kClosed when the output ended.
+  /// Reads exactly `size` bytes; kTimeout if no byte arrives for `patience`, kClosed at the end of
+  /// the output.
   Outcome ReadExactly(void* to, size_t size, std::chrono::milliseconds patience) const;
-  /// Waits for the end of a child whose output is closed, and says how it ended: "signal 11" or
-  /// "status 1".
+  /// Waits for a child whose output is closed, and returns how it ended: "signal 11" or "status 1".
   std::string Ending();
 
  private:

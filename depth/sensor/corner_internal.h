@@ -7,14 +7,14 @@
 
 namespace ossa::depth {
 
-/// Two straight pieces that meet, through numbers at equal steps of t from -1 to 1, by least
-/// squares; where they meet is tried at a few places.
+/// Least-squares fit of two joined line segments to values at equal steps of t from -1 to 1; the
+/// joint is searched over a few positions.
 class Corner {
  public:
-  /// For so many numbers, at least 5.
+  /// For `size` values, at least 5.
   explicit Corner(int size) : t_(static_cast<size_t>(size)) {
     constexpr int kPlaces = 7;           // for speed
-    constexpr double kOutermost = 0.75;  // no unit, of t: beyond, few numbers are left; by hand
+    constexpr double kOutermost = 0.75;  // no unit, of t: few values are left beyond; by hand
     for (int i = 0; i < size; ++i) t_[static_cast<size_t>(i)] = 2.0 * i / (size - 1) - 1.0;
     for (const double t : t_) squares_ += t * t;
     for (int k = 0; k < kPlaces; ++k) {
@@ -22,7 +22,7 @@ class Corner {
     }
   }
 
-  /// What the best two leave of the numbers, root mean square.
+  /// Root mean square residual of the best fit.
   double Rest(std::span<const double> z) const {
     double sum = 0.0, odd = 0.0, all = 0.0, most = 0.0;
     for (size_t i = 0; i < t_.size(); ++i) {
@@ -41,7 +41,7 @@ class Corner {
   }
 
  private:
-  // What a hinge adds to a straight line, of length 1.
+  // The component of a hinge orthogonal to straight lines, normalised.
   void AddHinge(double at) {
     std::vector<double> hinge(t_.size());
     double sum = 0.0, odd = 0.0, all = 0.0;

@@ -12,22 +12,22 @@
 #include "depth/sensor/depth_coding.h"
 
 // Constants: chosen on rendered clips of every view and noise and on the real frames of Kinect v1,
-// Xtion and PrimeSense that depth_units_test.cpp looks at, none of which may be suspected: there at
-// most 48 % of the numbers are multiples of 4 or 10, 15 % of the steps are of 8, and 1 % lies
-// within 0.53 m.
+// Xtion and PrimeSense of depth_units_test.cpp, none of which may be suspected: there at most 48 %
+// of the numbers are multiples of 4 or 10, 15 % of the steps are multiples of 8, and 1 % are within
+// 0.53 m.
 namespace ossa::depth {
 namespace {
 
 constexpr int64_t kEnoughReadings = 400;
 
-// Where people are followed, and some.
+// Range in which people are tracked, with a margin.
 constexpr double kNearest_mm = 300.0, kFarthest_mm = 12000.0;
 
 bool MayBeDistance(double mm) { return mm >= kNearest_mm && mm <= kFarthest_mm; }
 
-using Counts = std::vector<int64_t>;  // of each number, 65536
+using Counts = std::vector<int64_t>;  // histogram of 65536 values
 
-// Of the numbers that are not 0.
+// Statistics of the non-zero values.
 struct Spread {
   int64_t readings = 0;
   int64_t zeros = 0;
@@ -60,7 +60,7 @@ Spread MeasureSpread(const Counts& count) {
   return spread;
 }
 
-// Share of the readings for which something holds.
+// Share of the readings that satisfy a predicate.
 template <typename Holds>
 double Share(const Counts& count, const Spread& spread, const Holds& holds) {
   int64_t sum = 0;
@@ -77,7 +77,7 @@ std::string Metres(double mm) {
   return std::string(digits.data(), end.ptr) + " m";
 }
 
-// The high byte of a distance is small; as the low one of every number it gives the exchange away.
+// High bytes of distances are small; if they are the low byte of every value, bytes are exchanged.
 bool AreBytesExchanged(const Counts& count, const Spread& spread) {
   constexpr int kMostHighByte = static_cast<int>(kFarthest_mm) / 256;
   constexpr size_t kManyBytes = 16;
@@ -92,8 +92,8 @@ bool AreBytesExchanged(const Counts& count, const Spread& spread) {
          MayBeDistance(MeasureSpread(exchanged).median);
 }
 
-// Shifts end at 1090, infinitely far; no reading is 2047. Where everything was seen, nothing tells
-// them from millimetres of a wall so near that nobody could stand before it.
+// Shifts end at 1090, at infinity; 2047 means no reading. If every pixel has a reading, they cannot
+// be distinguished from millimetres of a very near wall, in front of which nobody could stand.
 bool AreShifts(const Counts& count, const Spread& spread) {
   constexpr int kNoShift = 2047, kInfinite = 1091, kOfARoom = 880;  // 1.6 m
   const auto between = [](int number) { return number >= kInfinite && number < kNoShift; };
@@ -121,8 +121,7 @@ std::optional<DepthSuspicion> JudgeFormat(const Counts& count, const Spread& spr
   return std::nullopt;
 }
 
-// Share of the numbers that occur, however often, for which something holds: a wall seen from
-// straight ahead is one number.
+// Share of the distinct values that satisfy a predicate: a frontal wall has a single value.
 template <typename Holds>
 double ComputeNumberShare(const Counts& count, const Spread& spread, const Holds& holds) {
   int sum = 0;
@@ -132,8 +131,8 @@ double ComputeNumberShare(const Counts& count, const Spread& spread, const Holds
   return static_cast<double>(sum) / spread.distinct;
 }
 
-// Share of the readings that have one of the three most common remainders by eight: player bits are
-// 0 and one number a person, a sensor's readings have all eight.
+// Share of the readings with one of the three most frequent remainders modulo eight: player bits
+// are 0 and one value per person, while a sensor's readings have all eight remainders.
 double ComputeThreeRemainderShare(const Counts& count, const Spread& spread) {
   std::array<int64_t, 8> of{};
   for (size_t number = 1; number < count.size(); ++number) of[number % 8] += count[number];
@@ -142,13 +141,13 @@ double ComputeThreeRemainderShare(const Counts& count, const Spread& spread) {
 }
 
 struct Unit {
-  int of_mm;  // so many to the millimetre
+  int of_mm;  // units per millimetre
   const char* looks;
 };
 
-// Whole millimetres times so many: sensors' readings have every remainder. What did not fit into 16
-// bits has any.
-// The bits of eight say who is there: it is the steps from pixel to pixel that have none.
+// Detects whole millimetres times a factor: sensor readings have all remainders. Values clipped to
+// 16 bits may have any. With a factor of eight the low bits may hold player indices: then
+// differences between pixels have no remainder.
 std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& spread,
                                              double share_of_steps_of_8) {
   constexpr std::array<Unit, 4> kUnits = {{{10, "tenths of a millimetre"},
@@ -156,9 +155,9 @@ std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& 
                                            {5, "fifths of a millimetre, as TUM's"},
                                            {4, "quarters of a millimetre"}}};
   constexpr int kManyNumbers = 16;
-  constexpr double kNearlyAll = 0.8;  // share of the readings
+  constexpr double kNearlyAll = 0.8;  // minimum share of the readings
   constexpr double kAll = 0.99;
-  constexpr double kMost = 0.6;  // of the numbers: by chance half of fours are eights
+  constexpr double kMost = 0.6;  // of distinct values: half of fours are eights by chance
   if (spread.distinct < kManyNumbers) return std::nullopt;
   const bool of_4 = Share(count, spread, [](int number) { return number % 4 == 0; }) > kNearlyAll;
   const bool has_players =
@@ -168,7 +167,8 @@ std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& 
     const bool all = (Share(count, spread, is_multiple) > kNearlyAll &&
                       ComputeNumberShare(count, spread, is_multiple) > kMost) ||
                      (unit.of_mm == 8 && has_players);
-    // A sensor that rounds to centimetres is none of tenths, and sees people within 5 m.
+    // A sensor that rounds to centimetres does not give tenths of millimetres; people are within 5
+    // m.
     const double least_mm = unit.of_mm == 10 ? 500.0 : kNearest_mm;
     const double median_mm = static_cast<double>(spread.median) / unit.of_mm;
     if (!all || median_mm < least_mm || median_mm > kFarthest_mm) continue;
@@ -181,11 +181,11 @@ std::optional<DepthSuspicion> JudgeMultiples(const Counts& count, const Spread& 
 }
 
 std::optional<DepthSuspicion> JudgeRange(const Spread& spread) {
-  constexpr int kHeadAlone_mm = 640;    // nearer, a camera sees a head and no more
-  constexpr int kNearRoom_mm = 1000;    // no room ends here
-  constexpr int kNearerThanMost = 400;  // where few cameras see
-  constexpr int kBlind_mm = 120;        // where none does
-  constexpr int kFarRoom_mm = 20000;    // beyond what stereo cameras see of a hall
+  constexpr int kHeadAlone_mm = 640;    // nearer, only a head is in view
+  constexpr int kNearRoom_mm = 1000;    // no room is this small
+  constexpr int kNearerThanMost = 400;  // few cameras measure here
+  constexpr int kBlind_mm = 120;        // no camera measures here
+  constexpr int kFarRoom_mm = 20000;    // beyond the range of stereo cameras in halls
   if (spread.percent_95 < kHeadAlone_mm ||
       (spread.percent_95 < kNearRoom_mm && spread.percent_5 < kNearerThanMost)) {
     return DepthSuspicion{"centimetres: as millimetres nearly all of them would lie within " +
@@ -197,7 +197,7 @@ std::optional<DepthSuspicion> JudgeRange(const Spread& spread) {
                               ", where no depth camera sees (were they inverted or stretched?)",
                           ""};
   }
-  // Of the background that a renderer gives one far number, what stands before it is near.
+  // If a renderer writes one far value for the background, objects in front of it are near.
   if (spread.percent_5 > kFarthest_mm && spread.median > kFarRoom_mm) {
     return DepthSuspicion{
         "distances stretched to 16 bits: as millimetres half of them would lie "
@@ -212,8 +212,8 @@ std::optional<DepthSuspicion> JudgeRange(const Spread& spread) {
 }  // namespace
 
 void DepthCensus::Add(const DepthView& image) {
-  // In eighths of a millimetre, by hand: 50 mm. The jumps from a thing to the wall behind it are a
-  // few numbers, which may all be multiples of 8 by chance.
+  // In eighths of a millimetre, by hand: 50 mm. Steps from an object to the wall behind it have few
+  // values, which may all be multiples of 8 by chance.
   constexpr int kOnOneSurface = 400;
   const auto reading = [&](int u, int v) {
     const uint16_t number = image.at(u, v);
@@ -241,7 +241,7 @@ bool DepthCensus::IsEnough() const {
 
 std::optional<DepthSuspicion> DepthCensus::Judge() const {
   constexpr int64_t kEnoughSteps = 300;
-  constexpr int kFewNumbers = 10;  // a wall, or nothing
+  constexpr int kFewNumbers = 10;  // a wall, or an empty image
   const Spread spread = MeasureSpread(count_);
   if (spread.readings < kEnoughReadings || spread.distinct < kFewNumbers) return std::nullopt;
   if (auto found = JudgeFormat(count_, spread)) return found;
@@ -254,12 +254,12 @@ std::optional<DepthSuspicion> DepthCensus::Judge() const {
       "--depth-format inverted:FROM"};
   const auto range = JudgeRange(spread);
   const bool centimetres = range && !range->option.empty();
-  // The numbers of somebody cut out whose farthest point stands for 0 are as small as centimetres.
+  // Inverted values of a person cut out, with the farthest point at 0, are as small as centimetres.
   if (centimetres && bulge_of_centimetres_.IsRound()) return range;
-  // Of somebody who steps into the image an arm's edge is seen first, and that is hollow at times.
-  if (bulge_.IsHollow() && !bend_.IsRightWayRound()) return inverted;
+  // When a person enters the image, an arm's edge appears first, which may look hollow.
+  if (bulge_.IsHollow() && !bend_.IsNotInverted()) return inverted;
   if (centimetres) return range;
-  return bend_.IsWrongWayRound() && !bulge_.IsRound() ? inverted : range;
+  return bend_.IsInverted() && !bulge_.IsRound() ? inverted : range;
 }
 
 }  // namespace ossa::depth

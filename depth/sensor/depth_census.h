@@ -10,27 +10,28 @@
 
 namespace ossa::depth {
 
-/// What depths are, if not millimetres of people.
+/// The likely meaning of depth values that are not millimetres of people.
 struct DepthSuspicion {
   std::string looks;   // "centimetres: as millimetres half of them ..."
-  std::string option;  // that reads them so; "" where there is none
+  std::string option;  // option that reads them correctly; "" if there is none
 };
 
-/// Counts the numbers in depth images that state no unit and says whether they can be millimetres
-/// of people. Only what no depth camera makes is evidence: remainders, bytes, a range where no
-/// sensor sees and no room ends, surfaces and bodies that bend the wrong way.
+/// Collects statistics of depth images without a stated unit and decides whether they can be
+/// millimetres of people. Only properties that no depth camera has are evidence: remainders, bytes,
+/// ranges in which no sensor measures and no room ends, surfaces and bodies with the wrong
+/// curvature.
 class DepthCensus {
  public:
   void Add(const DepthView& image);
-  /// Whether enough was seen to judge by.
+  /// Whether there are enough data to judge.
   bool IsEnough() const;
-  /// Nothing where they can be, or where too little was seen.
+  /// None if they can be millimetres, or without enough data.
   std::optional<DepthSuspicion> Judge() const;
 
  private:
-  std::vector<int64_t> count_ = std::vector<int64_t>(65536, 0);  // of each number
-  int64_t steps_ = 0;       // pairs of neighbours in a row that differ,
-  int64_t steps_of_8_ = 0;  // ... by a multiple of 8
+  std::vector<int64_t> count_ = std::vector<int64_t>(65536, 0);  // histogram of values
+  int64_t steps_ = 0;       // horizontal neighbours with different values,
+  int64_t steps_of_8_ = 0;  // ... differing by a multiple of 8
   SurfaceBend bend_;
   BodyBulge bulge_, bulge_of_centimetres_{0.1};
 };

@@ -12,9 +12,9 @@
 namespace ossa::depth {
 namespace {
 
-constexpr uint32_t kNumbers = 65536;  // that 16 bits hold, by definition
+constexpr uint32_t kNumbers = 65536;  // number of 16-bit values, by definition
 
-// 0 where a number is no distance.
+// The value without encoding; 0 if it is not a distance.
 uint32_t Plain(const DepthCoding& coding, uint32_t number) {
   switch (coding.format) {
     case DepthFormat::kSwapped:

@@ -7,15 +7,15 @@
 
 namespace ossa::depth {
 
-/// The largest of 16 bits. It is no distance but what did not fit into them, or a renderer's empty
-/// background, or how others write that there is no reading (7-Scenes' Kinect images).
+/// The largest 16-bit value. It is not a distance but a clipped value, a renderer's empty
+/// background, or a code for no reading (7-Scenes' Kinect images).
 inline constexpr uint16_t kSaturatedDepth = 65535;  // by definition
 
-/// How 16-bit numbers become millimetres.
+/// Conversion of 16-bit values to millimetres.
 struct DepthCoding {
   DepthFormat format = DepthFormat::kPlain;
-  double units_per_metre = 1000.0;  // of all but kDisparity, > 0
-  int inverted_from = 65535;        // of kInverted
+  double units_per_metre = 1000.0;  // except for kDisparity, > 0
+  int inverted_from = 65535;        // for kInverted
   bool IsMillimetres() const { return format == DepthFormat::kPlain && units_per_metre == 1000.0; }
 };
 
@@ -23,8 +23,8 @@ struct DepthCoding {
 /// InputError for anything else.
 DepthCoding ParseDepthFormat(std::string_view name);
 
-/// Millimetres of each of the 65536 numbers: rounded; 0, no reading, for 0, for kSaturatedDepth and
-/// for what lies beyond 65.534 m.
+/// Rounded millimetres of all 65536 values; 0, no reading, for 0, for kSaturatedDepth and beyond
+/// 65.534 m.
 std::vector<uint16_t> MillimetreTable(const DepthCoding& coding);
 
 }  // namespace ossa::depth

@@ -36,7 +36,7 @@ std::optional<DepthList::Entry> ParseEntry(std::string_view line) {
   return DepthList::Entry{time_s, std::string(file), 0};
 }
 
-// From the first entry on, in seconds whatever they were written in.
+// Converts times to seconds from the first entry.
 void CountSeconds(DepthList& list) {
   std::vector<double> steps;
   for (size_t i = 1; i < list.entries.size(); ++i) {
@@ -50,7 +50,7 @@ void CountSeconds(DepthList& list) {
 }  // namespace
 
 DepthList ParseDepthList(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // that editors on Windows add
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // added by editors on Windows
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   DepthList list;
   for (int number = 1; !text.empty(); ++number) {
@@ -71,7 +71,7 @@ DepthList ParseDepthList(std::string_view text) {
 }
 
 DepthList ReadDepthList(const fs::path& folder) {
-  constexpr std::uintmax_t kLargest = std::uintmax_t{256} << 20;  // a day of frames is a tenth
+  constexpr std::uintmax_t kLargest = std::uintmax_t{256} << 20;  // ten times a day of frames
   const fs::path path = folder / "depth.txt";
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return {};

@@ -16,22 +16,22 @@ namespace fs = std::filesystem;
 
 // Constants: of libfreenect's format.
 
-constexpr int kWidth = 640;  // the one size fakenect knows
+constexpr int kWidth = 640;  // the only size fakenect supports
 constexpr int kHeight = 480;
-constexpr double kTicksPerSecond = 60e6;  // the Kinect's clock, 32 bits of it
+constexpr double kTicksPerSecond = 60e6;  // the Kinect's 32-bit clock
 
-// libfreenect's freenect_raw_tilt_state of a Kinect that stands level: 819 counts are 1 g.
+// libfreenect's freenect_raw_tilt_state of a level Kinect: 819 counts are 1 g.
 struct RawTiltState {
   std::array<int16_t, 3> accelerometer = {0, 819, 0};
   int8_t tilt_angle = 0;
-  int8_t padding = 0;  // named, so that the file has no byte that nobody wrote
+  int8_t padding = 0;  // named, so that no uninitialised byte is written
   int32_t tilt_status = 0;
 };
 static_assert(sizeof(RawTiltState) == 12);
 
-// fakenect's names: kind, seconds on the host's clock, ticks on the Kinect's.
+// fakenect's file names: kind, seconds of the host clock, ticks of the Kinect's.
 std::string FileName(char kind, double time_s, const char* extension) {
-  // To microseconds, with a point in any locale.
+  // Microsecond resolution, with a decimal point in any locale.
   std::array<char, 80> seconds{};
   const auto end = std::to_chars(seconds.data(), seconds.data() + seconds.size(), time_s,
                                  std::chars_format::fixed, 6);
@@ -64,7 +64,7 @@ void FakenectDump::Write(const DepthFrame& frame) {
     throw InputError(folder_.string() + ": expected 640x480 depths, found " +
                      std::to_string(frame.pixel_count()));
   }
-  constexpr double kStart_s = 1.0;  // fakenect takes the time 0 for none
+  constexpr double kStart_s = 1.0;  // fakenect takes time 0 as missing
   const double time_s = kStart_s + frame.time_s;
   if (level_.empty()) {
     const std::string name = FileName('a', time_s, "dump");

@@ -18,16 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFramePeriod_s =
-    1.0 / 30.0;  // where nothing says when: by convention the Kinect's rate
+constexpr double kFramePeriod_s = 1.0 / 30.0;  // without any times: by convention the Kinect's rate
 
-// What lies in a folder, and what of it is left aside.
+// The files of a folder, sorted by use.
 struct Sorted {
   std::vector<fs::path> depth;  // in natural order
   std::vector<fs::path> other;
 };
 
-// Of those that may lie there no note is due.
+// Whether a file is expected beside images and needs no note.
 bool IsExpectedBeside(const fs::path& path) {
   constexpr std::array<std::string_view, 11> kKnown = {
       "camera.json",           "depth.txt",      "manifest.json",         "truth.jsonl",
@@ -49,7 +48,7 @@ std::vector<fs::path> FilesIn(const fs::path& folder) {
   return paths;
 }
 
-// Words between whatever is no letter.
+// Whether a name has one of the words, delimited by non-letters.
 bool HasWord(std::string_view family, std::span<const std::string_view> words) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   for (size_t from = 0; from < family.size();) {
@@ -67,7 +66,7 @@ bool HasWord(std::string_view family, std::span<const std::string_view> words) {
 
 enum class Rank { kDepth, kUnnamed, kNamedOther };
 
-// What a name says of the image: depth*.png beside ir*.png are the ones meant.
+// The kind of image by its name: depth*.png is preferred over ir*.png beside it.
 Rank RankByName(const fs::path& png) {
   constexpr std::array<std::string_view, 16> kOthers = {
       "ir",  "infrared", "color", "colour", "rgb",   "amp",   "amplitude", "intensity",
@@ -96,7 +95,7 @@ Sorted SortOut(const fs::path& folder) {
 
 void NotePassedOver(const fs::path& folder, const std::vector<fs::path>& others,
                     const SourceOptions& options) {
-  constexpr size_t kNamed = 3;  // by hand: a line's worth
+  constexpr size_t kNamed = 3;  // by hand: fits a line
   if (others.empty() || !options.note) return;
   std::string text = folder.string() + ": passed over " + std::to_string(others.size()) +
                      (others.size() == 1 ? " file that is" : " files that are") +
@@ -107,8 +106,8 @@ void NotePassedOver(const fs::path& folder, const std::vector<fs::path>& others,
   options.note(NoteKind::kInfo, text + (others.size() > kNamed ? ", ..." : ""));
 }
 
-// Two images of each moment, such as depth_1.png and depth_filled_1.png, make no sequence. Names
-// that are all different say nothing of that.
+// Notes if there seem to be two images per frame, such as depth_1.png and depth_filled_1.png. Names
+// that all differ do not show it.
 void NoteKinds(const fs::path& folder, const std::vector<fs::path>& depth,
                const SourceOptions& options) {
   std::map<std::string, int> count;
@@ -123,7 +122,7 @@ void NoteKinds(const fs::path& folder, const std::vector<fs::path>& depth,
                                     kinds + ") are read as one sequence");
 }
 
-// One frame of another size, or a broken first one, must not decide for all.
+// The most frequent size: a single frame of another size, or a broken first one, must not decide.
 ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
   std::vector<std::pair<ImageSize, int>> counts;
   for (const ListedFrame& frame : frames) {
@@ -131,20 +130,20 @@ ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
     try {
       size = ReadDepthPngSize(frame.path);
     } catch (const InputError&) {
-      continue;  // told of when its turn comes
+      continue;  // reported when it is read
     }
     const auto same = [&](const auto& count) { return count.first == size; };
     auto found = std::find_if(counts.begin(), counts.end(), same);
     if (found == counts.end()) found = counts.insert(counts.end(), {size, 0});
     ++found->second;
   }
-  if (counts.empty()) return ReadDepthPngSize(frames.front().path);  // which says what is wrong
+  if (counts.empty()) return ReadDepthPngSize(frames.front().path);  // throws with the reason
   return std::max_element(counts.begin(), counts.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
-// Of the times that `what` has.
+// Notes the assumed unit of the times in `what`.
 void NoteUnit(const std::string& what, double unit_s, const SourceOptions& options) {
   if (unit_s == 1.0 || !options.note) return;
   const char* unit = unit_s == 1e-3   ? "milliseconds"
@@ -180,13 +179,13 @@ std::vector<ListedFrame> FramesByName(const fs::path& folder, const std::vector<
   return frames;
 }
 
-// What a depth.txt says of the images of a folder.
+// The images listed in a depth.txt.
 struct FrameList {
   fs::path file;
   std::vector<ListedFrame> frames;
-  std::string first;  // line and name of the first of them
+  std::string first;  // line and name of the first bad one
   std::vector<int> bad_lines;
-  double unit_s = 1.0;  // of its times
+  double unit_s = 1.0;  // unit of its times
 
   bool NamesAFile() const {
     std::error_code none;
@@ -195,7 +194,7 @@ struct FrameList {
   }
 };
 
-// The list in `place`, of images anywhere or only of those in the folder `only`.
+// Reads the list in `place`, of images anywhere or only of those in the folder `only`.
 FrameList ReadFrameList(const fs::path& place, const std::optional<fs::path>& only) {
   DepthList list = ReadDepthList(place);
   FrameList found{place / "depth.txt", {}, {}, std::move(list.bad_lines), list.unit_s};
@@ -220,8 +219,8 @@ void NoteBadLines(const FrameList& list, const SourceOptions& options) {
                                        std::to_string(list.bad_lines.size()));
 }
 
-// As depth.txt beside the images or, as TUM's data sets have it, above their folder lists them. One
-// that names no file that is there is another program's, where the folder has images.
+// Frames by a depth.txt beside the images or, as in TUM's data sets, above their folder. A list
+// that names no existing file is another program's, if the folder has images.
 std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
                                       const SourceOptions& options) {
   const fs::path here = fs::absolute(folder).lexically_normal();
@@ -250,12 +249,12 @@ bool HasDepthImage(const fs::path& folder) {
     if (png == files.end()) return false;
     ReadDepthPngSize(*png);
     return true;
-  } catch (const InputError&) {  // an image of another kind, or a folder that may not be read
+  } catch (const InputError&) {  // another kind of image, or an unreadable folder
     return false;
   }
 }
 
-// Recorders put depth beside their colours, in a folder of its own; "" where there is none.
+// The sub-folder of depth images that recorders create beside the colour one; "" if there is none.
 std::string NameFolderOfDepthIn(const fs::path& folder) {
   std::vector<fs::path> folders;
   std::error_code error, unknown;
@@ -272,7 +271,7 @@ std::string NameFolderOfDepthIn(const fs::path& folder) {
 
 [[noreturn]] void FailEmpty(const fs::path& folder, const Sorted& sorted) {
   const auto png = std::find_if(sorted.other.begin(), sorted.other.end(), IsPngName);
-  if (png != sorted.other.end()) ReadDepthPngSize(*png);  // says why it is none
+  if (png != sorted.other.end()) ReadDepthPngSize(*png);  // throws with the reason
   if (fs::is_directory(folder / "shards")) {
     throw InputError(
         folder.string() +
@@ -280,7 +279,7 @@ std::string NameFolderOfDepthIn(const fs::path& folder) {
         "cut out around people: `ossa render --format png` or both keeps them whole");
   }
   for (const fs::path& path : sorted.other) {
-    if (const char* how = HowToConvert(path)) {
+    if (const char* how = DescribeConversion(path)) {
       throw InputError(path.string() + ": expected 16-bit PNGs, found " + how);
     }
   }

@@ -10,22 +10,22 @@ namespace ossa::depth {
 
 struct ListedFrame {
   std::filesystem::path path;
-  int64_t number = 0;  // of the frame: from its name if all names are frame numbers, else its place
+  int64_t number = 0;  // frame number: from its name if all names are numbers, else its index
   double time_s = 0.0;
 };
 
-/// The depth images of a folder that may hold much else.
+/// The depth images of a folder, which may contain other files.
 struct FolderListing {
-  std::vector<ListedFrame> frames;  // in order of time
-  ImageSize size;                   // that most of them have
+  std::vector<ListedFrame> frames;  // sorted by time
+  ImageSize size;                   // of most frames
 };
 
-/// Frames in natural order, 30 a second; or, in order of time, as depth.txt or their names say (see
-/// ReadTimesFromNames). What is no depth image is passed over with a note. Throws InputError when
-/// there is none.
+/// Lists frames in natural order at 30 Hz; or by time, if depth.txt or their names state times (see
+/// ReadTimesFromNames). Files that are not depth images are skipped with a note. Throws InputError
+/// if there are no frames.
 FolderListing ListDepthFolder(const std::filesystem::path& folder, const SourceOptions& options);
 
-/// Whether a file is a PNG by its name, .PNG as well, and not one that a Mac left beside another.
+/// Whether a file is a PNG by its extension, in any case, and not a macOS resource file.
 bool IsPngName(const std::filesystem::path& path);
 
 }  // namespace ossa::depth

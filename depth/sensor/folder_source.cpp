@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What could not be read, for the end.
+// Unreadable frames, reported at the end.
 struct Skipped {
   int64_t frames = 0;
-  std::string first;  // what is wrong with the first of them
+  std::string first;  // error of the first one
 };
 
 std::string SizeText(ImageSize size) {
@@ -74,7 +74,7 @@ class FolderSource final : public FrameSource {
     return result;
   }
 
-  // The frames between the last one told of and this one.
+  // Number of frames missing since the last one.
   int64_t CountDropped(int64_t number) {
     const int64_t dropped = number - next_number_;
     next_number_ = number + 1;
@@ -99,10 +99,10 @@ class FolderSource final : public FrameSource {
   SourceOptions options_;
   size_t next_ = 0;
   Skipped skipped_;
-  int64_t next_number_;  // of the frame that is to be given or counted as dropped next
+  int64_t next_number_;  // number of the next expected frame
 };
 
-// A camera that a file states must be of the size of the frames it speaks of.
+// Checks that a camera from a file fits the frame size.
 Camera StatedCamera(const CameraChoice& choice, const fs::path& file, ImageSize size) {
   const Camera& camera = choice.camera;
   const bool has_size = camera.width > 0;
@@ -123,9 +123,9 @@ Camera ReadStatedCamera(const fs::path& file, ImageSize size, const SourceOption
   return camera;
 }
 
-// What Open3D's recorders and data sets of scenes (ScanNet, DeepDeform, 3DMatch) have beside their
-// images or above the folder of depth, and what ROS's calibration is saved as, beside them: above
-// it might be a colour camera's.
+// Camera files of Open3D's recorders and of scene data sets (ScanNet, DeepDeform, 3DMatch), beside
+// the images or above the depth folder, and ROS's calibration beside the images: above, it might be
+// a colour camera's.
 std::vector<fs::path> CameraFilesOfOthers(const fs::path& folder) {
   constexpr std::array kNames = {"camera_intrinsic.json", "intrinsic.json",
                                  "intrinsic_depth.txt",   "intrinsics.txt",
@@ -142,7 +142,7 @@ std::vector<fs::path> CameraFilesOfOthers(const fs::path& folder) {
   return files;
 }
 
-// A matrix that states no size may be of larger images, such as the colour camera's.
+// A matrix without a size may be for larger images, such as the colour camera's.
 void CheckCentre(const Camera& camera, const fs::path& file) {
   constexpr double kFarthest = 0.25;  // share of the size; by hand: cropping moves it by a tenth
   const bool is_near = std::abs(camera.cx / camera.width - 0.5) < kFarthest &&
@@ -152,7 +152,7 @@ void CheckCentre(const Camera& camera, const fs::path& file) {
                    std::to_string(camera.width) + "x" + std::to_string(camera.height));
 }
 
-// Other programs' files of these names are passed over.
+// Unrelated files of these names are ignored.
 std::optional<Camera> CameraOfOthers(const fs::path& folder, ImageSize size,
                                      const SourceOptions& options) {
   for (const fs::path& file : CameraFilesOfOthers(folder)) {
@@ -179,7 +179,7 @@ std::optional<Camera> CameraFileIn(const fs::path& folder, ImageSize size,
                           : CameraOfOthers(folder, size, options);
 }
 
-// As the option says, else the folder's camera.json or whatever states it; else by the image size.
+// The camera by option, else by camera.json or another file in the folder, else by image size.
 Camera ChooseCamera(const fs::path& folder, const std::optional<Camera>& stated, ImageSize size,
                     const SourceOptions& options) {
   if (options.camera) return ChosenCamera(options, size.width, size.height);

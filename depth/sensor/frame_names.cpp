@@ -9,8 +9,8 @@
 
 #include "depth/base/statistics.h"
 
-// Constants: by hand, between the clocks that recorders put into names; in each unit depth cameras'
-// steps, of 5 ms to 2 s, are far from the next unit's.
+// Constants: by hand, chosen to separate clock units in file names: the steps of depth cameras, 5
+// ms to 2 s, do not overlap between units.
 namespace ossa::depth {
 namespace {
 
@@ -25,7 +25,7 @@ std::string_view WithoutLeadingZeros(std::string_view digits) {
   return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
 
-// A name's last number and what stands around it.
+// A name's last number and the text around it.
 struct NumberedName {
   std::string_view before, whole, fraction, after;
 };
@@ -47,7 +47,7 @@ std::optional<NumberedName> FindLastNumber(std::string_view stem) {
   return name;
 }
 
-// All names' last numbers, where they are all that the names differ in; else empty.
+// The last numbers of all names, if the names differ in nothing else; else empty.
 std::vector<NumberedName> FindLastNumbers(const std::vector<std::string>& stems) {
   std::vector<NumberedName> names;
   for (const std::string& stem : stems) {
@@ -74,7 +74,7 @@ std::optional<std::vector<int64_t>> WholeNumbers(const std::vector<NumberedName>
   return values;
 }
 
-// A fraction that begins with 0 is no count: of whole numbers of any length none does.
+// Whether these are decimals: integers do not have leading zeros of varying length.
 bool AreDecimals(const std::vector<NumberedName>& names) {
   const auto is_longer = [&](const NumberedName& name) {
     return name.fraction.size() != names.front().fraction.size();
@@ -85,7 +85,7 @@ bool AreDecimals(const std::vector<NumberedName>& names) {
          });
 }
 
-// Seconds and fraction, from the earliest on; subtracting first keeps the microseconds of a time
+// Seconds from the earliest time. Integers are subtracted first, to keep the microseconds of times
 // since 1970.
 std::vector<double> Seconds(const std::vector<NumberedName>& names,
                             const std::vector<int64_t>& whole) {
@@ -101,7 +101,7 @@ std::vector<double> Seconds(const std::vector<NumberedName>& names,
   return times_s;
 }
 
-// Times of day behind a date, as PCL's grabber and other programs write them:
+// Whether these are times of day after a date, as written by PCL's grabber and other programs:
 // 20121214T142255.814212.
 bool AreTimesOfDay(const std::vector<NumberedName>& names) {
   constexpr size_t kDate = 8, kTime = 6;  // digits
@@ -114,7 +114,7 @@ bool AreTimesOfDay(const std::vector<NumberedName>& names) {
   });
 }
 
-// Of hours, minutes and seconds, two digits each.
+// Converts hours, minutes and seconds, two digits each, to seconds.
 void CountSecondsOfDay(std::vector<int64_t>& whole) {
   for (int64_t& time : whole) {
     time = time / 10000 * 3600 + time / 100 % 100 * 60 + time % 100;
@@ -128,10 +128,10 @@ T MedianStep(const std::vector<T>& values) {
   return Median(std::move(steps));
 }
 
-// Below this numbers rather count frames than milliseconds, or are seconds.
+// Smaller steps are frame numbers or seconds, not milliseconds.
 constexpr int64_t kLeastTimeStep = 15;
 
-// Seconds a unit of whole numbers that are times, or nothing.
+// Seconds per unit of integers that are times; none if they are not.
 std::optional<double> GuessUnitOfNumbers(int64_t step, size_t digits) {
   constexpr size_t kSecondsSince1970 = 10, kNanosecondsSince1970 = 18;
   if (step < kLeastTimeStep) {
@@ -148,7 +148,7 @@ bool SaysFrame(std::string_view before) {
   return lower.find("frame") != lower.npos;
 }
 
-// As programs write what they count, and clocks hardly: 000100, 000200.
+// Whether numbers are zero-padded, as counters usually are and clocks are not: 000100, 000200.
 bool ArePaddedWithZeros(const std::vector<NumberedName>& names) {
   bool any = false;
   for (const NumberedName& name : names) {
@@ -158,13 +158,14 @@ bool ArePaddedWithZeros(const std::vector<NumberedName>& names) {
   return any;
 }
 
-// Of 0, 20, 40, 80: every twentieth frame was kept, and one of those taken away. Milliseconds of
-// cameras that are faster than 30 frames a second come unevenly, 16 and 17 or 11 and 12 in turns.
+// Whether the numbers count every n-th frame, like 0, 20, 40, 80 with one frame removed.
+// Millisecond times of cameras faster than 30 Hz have uneven steps, such as 16 and 17, or 11 and
+// 12.
 bool CountEveryNthFrame(const std::vector<int64_t>& values, int64_t step, bool says_frame,
                         bool padded) {
-  constexpr int64_t kLeastEvenTimeStep = 30;  // ms: of a program that waits so long
-  constexpr int64_t kMostEveryNth = 1000;     // of data sets' choices, by hand
-  constexpr size_t kEnough = 3;               // one step is even by itself
+  constexpr int64_t kLeastEvenTimeStep = 30;  // ms: of a program that sleeps between frames
+  constexpr int64_t kMostEveryNth = 1000;     // largest n of data sets, by hand
+  constexpr size_t kEnough = 3;               // a single step is always even
   const bool says_count = says_frame || (padded && step <= kMostEveryNth);
   const bool may_be_times = step >= kLeastEvenTimeStep && !says_count;
   if (values.size() < kEnough || step < 2 || may_be_times) return false;
@@ -176,7 +177,7 @@ bool CountEveryNthFrame(const std::vector<int64_t>& values, int64_t step, bool s
 
 NamedTimes ReadTimesFromNumbers(const std::vector<NumberedName>& names,
                                 const std::vector<int64_t>& values) {
-  constexpr size_t kLongestCount = 8;  // digits: longer numbers are times or say nothing
+  constexpr size_t kLongestCount = 8;  // digits: longer numbers are times or hashes
   const size_t digits = WithoutLeadingZeros(names.back().whole).size();
   const NumberedName& first = names.front();
   const bool alone = first.before.empty() && first.after.empty();
@@ -207,7 +208,7 @@ NamedTimes ReadTimesFromWholes(const std::vector<NumberedName>& names) {
   return twice ? NamedTimes{} : ReadTimesFromNumbers(names, *values);
 }
 
-// Of "take2.0033", where every name has the 2: the number after it. Else empty.
+// For names like "take2.0033", which all have the 2: the number after it. Else empty.
 std::vector<NumberedName> TakeFractionsForNumbers(std::vector<NumberedName> names) {
   const std::string_view whole = names.front().whole;
   for (NumberedName& name : names) {
@@ -219,7 +220,7 @@ std::vector<NumberedName> TakeFractionsForNumbers(std::vector<NumberedName> name
 }
 
 NamedTimes ReadTimesFromFractions(const std::vector<NumberedName>& names) {
-  constexpr double kLeastStep_s = 0.004;  // of a camera of 200 frames a second, and some
+  constexpr double kLeastStep_s = 0.004;  // of a camera of 200 frames a second, with a margin
   const auto counts = TakeFractionsForNumbers(names);
   const NamedTimes count = counts.empty() ? NamedTimes{} : ReadTimesFromWholes(counts);
   const bool has_words = !names.front().before.empty();
@@ -255,7 +256,7 @@ bool NaturalLess(std::string_view a, std::string_view b) {
     }
   }
   const size_t left_a = a.size() - i, left_b = b.size() - k;
-  return left_a != left_b ? left_a < left_b : a < b;  // 1 and 01: any order, but always the same
+  return left_a != left_b ? left_a < left_b : a < b;  // 1 and 01: deterministic order
 }
 
 std::optional<double> GuessTimeUnit(double step) {

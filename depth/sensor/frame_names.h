@@ -7,31 +7,30 @@
 
 namespace ossa::depth {
 
-/// Natural order: runs of digits compare as numbers of any length, so img_2 comes before img_10.
+/// Natural order: digit sequences compare as numbers of any length, so img_2 comes before img_10.
 bool NaturalLess(std::string_view a, std::string_view b);
 
-/// What the names of one kind of file share: small letters, with every number left out ("depth_",
-/// "frame-.depth", "").
+/// A name's pattern: lower case with all numbers removed ("depth_", "frame-.depth", "").
 std::string StripNumbers(std::string_view stem);
 
-/// Seconds a unit of times that mostly go up by `step`: a thousandth, a millionth or a billionth,
-/// where that makes one of the 0.5 to 200 frames a second that cameras give; else nothing.
+/// Seconds per unit of times with typical step `step`: 1e-3, 1e-6 or 1e-9 if that gives a camera's
+/// frame rate, 0.5 to 200 Hz; else none.
 std::optional<double> GuessTimeUnit(double step);
 
-/// When the frames of a sequence were taken, by their files' names without extension.
+/// Times of the frames of a sequence, from their file names without extension.
 struct NamedTimes {
   enum class Kind { kPlaces, kNumbers, kTimes };
   Kind kind = Kind::kPlaces;
-  std::vector<int64_t> numbers;  // kNumbers: of the frames; one that is missing was dropped
-  std::vector<double> times_s;   // kTimes: of each name, from the earliest on
-  double unit_s = 1.0;           // kTimes: of the numbers in the names
+  std::vector<int64_t> numbers;  // kNumbers: frame numbers; a missing one was dropped
+  std::vector<double> times_s;   // kTimes: of each name, since the earliest
+  double unit_s = 1.0;           // kTimes: unit of the numbers in the names
 };
 
-/// Names in natural order, which is not that of seconds whose last zeros are left out (0.1 comes
-/// before 0.033). Numbers with a fraction are seconds, but for a word with a number and a count
-/// after it (take2.0033); whole ones are frame numbers where they count in small steps, and else
-/// milliseconds, microseconds or nanoseconds where that makes a frame rate that cameras have; what
-/// is neither says no more than the order.
+/// Names in natural order, which differs from time order for seconds without trailing zeros (0.1
+/// comes before 0.033). Numbers with a fraction are seconds, except for a word with a number
+/// followed by a count (take2.0033). Integers are frame numbers if their steps are small; otherwise
+/// milliseconds, microseconds or nanoseconds if that gives a plausible frame rate; else only their
+/// order is used.
 NamedTimes ReadTimesFromNames(const std::vector<std::string>& stems);
 
 }  // namespace ossa::depth

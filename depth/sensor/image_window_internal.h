@@ -5,13 +5,13 @@
 
 namespace ossa::depth {
 
-/// Which part of the sensor's image a frame shows: all of it, unless its stream is cropped.
+/// The part of the sensor's image that a frame shows: all of it, unless its stream is cropped.
 struct ImageWindow {
   int32_t whole_width = 0, whole_height = 0;  // pixels, as everything here
   int32_t left = 0, top = 0;
-  int32_t width = 0, height = 0;  // of the frame
+  int32_t width = 0, height = 0;  // size of the frame
 
-  /// True of a part of an image that can be.
+  /// Whether the window is inside the image.
   bool IsSane() const {
     return whole_width >= 1 && whole_width <= kLargestImageSide && whole_height >= 1 &&
            whole_height <= kLargestImageSide && left >= 0 && left < whole_width && top >= 0 &&
@@ -20,8 +20,8 @@ struct ImageWindow {
   }
 };
 
-/// The camera of what is seen through the window: `whole`, which is scaled where the image has
-/// another size by now (see CameraForSize), with its centre shifted.
+/// The camera of the cropped image: `whole`, scaled if the image has another size (see
+/// CameraForSize), with a shifted principal point.
 Camera CropToWindow(const Camera& whole, const ImageWindow& window);
 
 }  // namespace ossa::depth

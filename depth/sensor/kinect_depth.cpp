@@ -6,8 +6,8 @@
 namespace ossa::depth {
 
 // Triangulation between projector and camera: a raw depth is a shift, in eighths of a pixel,
-// against the shift that a reference plane at kReference_mm shows. With the shift s as a length in
-// that plane and the baseline b, similar triangles give z = z0 + z0 s / (b - s).
+// relative to the shift of a reference plane at kReference_mm. With the shift s as a length in that
+// plane and the baseline b, similar triangles give z = z0 + z0 s / (b - s).
 std::array<uint16_t, 2048> AverageKinectDepthTable() {
   constexpr double kReference_mm = 1200.0;  // z0, and the next two: typical of PrimeSense's devices
   constexpr double kPixelAtReference_mm = 2.084;  // width of a (2 × 2 binned) pixel on that plane
@@ -18,7 +18,7 @@ std::array<uint16_t, 2048> AverageKinectDepthTable() {
   constexpr double kPixelOffset = 0.375;   // of the correlation window's middle
   constexpr double kFarthest_mm = 10000.0;
   std::array<uint16_t, 2048> table{};
-  for (std::size_t raw = 0; raw < table.size() - 1; ++raw) {  // 2047 says that there is no reading
+  for (std::size_t raw = 0; raw < table.size() - 1; ++raw) {  // 2047 means no reading
     const double shift_px =
         (static_cast<double>(raw) - kShiftsPerPixel * kShiftOfReference) / kShiftsPerPixel -
         kPixelOffset;

@@ -33,8 +33,8 @@ class DifferenceStream {
     }
   }
 
-  // Departure: OpenNI2's own encoder writes the odd last pixel before the run of equal pairs that
-  // precedes it, and so plays back such frames wrong in their last pixels.
+  // Departure: OpenNI2's own encoder writes an odd last pixel before the preceding run of equal
+  // pairs, and so decodes the last pixels of such frames wrongly.
   void Finish() {
     FlushRun();
     if (has_half_) out_->push_back(static_cast<uint8_t>(half_ + 0x0d));
@@ -71,16 +71,16 @@ class DifferenceStream {
   std::vector<uint8_t>* out_;
   uint8_t half_ = 0;
   bool has_half_ = false;
-  int run_ = 0;  // pairs of pixels equal to the one before, not yet written
+  int run_ = 0;  // pending pairs of pixels equal to the previous one
 };
 
-// The same stream read: hostile bytes lead nowhere outside of it, of the table or of the image.
+// The decoder: hostile bytes cannot index outside the stream, the table or the image.
 class DifferenceReader {
  public:
   DifferenceReader(std::span<const uint8_t> data, std::span<const uint16_t> table, int position)
       : data_(data), table_(table), position_(position) {}
 
-  // True when the stream holds so many pixels, and nothing else.
+  // True if the stream holds exactly `pixels` pixels.
   bool Read(size_t pixels, std::vector<uint16_t>* depth_mm) {
     out_ = depth_mm;
     pixels_ = pixels;

@@ -6,13 +6,13 @@
 
 namespace ossa::depth {
 
-/// OpenNI2's depth codec "16zT": the values that occur, in a table, then the pixels as differences
-/// of table positions in half bytes. Appends to `out`. Empty frames and frames with more than
-/// kLargestOniTable different values cannot be written: returns false.
+/// OpenNI2's depth codec "16zT": a table of the occurring values, then the pixels as differences of
+/// table indices in nibbles. Appends to `out`. Returns false for frames that cannot be encoded:
+/// empty ones, and ones with more than kLargestOniTable different values.
 inline constexpr int kLargestOniTable = 32767;
 bool EncodeOniDepth(std::span<const uint16_t> depth_mm, std::vector<uint8_t>* out);
 
-/// What EncodeOniDepth wrote of an image of so many pixels; false for bytes that it never writes.
+/// Decodes the output of EncodeOniDepth for `pixels` pixels; false for bytes that it never writes.
 bool DecodeOniDepth(std::span<const uint8_t> data, size_t pixels, std::vector<uint16_t>* depth_mm);
 
 }  // namespace ossa::depth

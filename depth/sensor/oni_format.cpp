@@ -26,7 +26,7 @@ T Load(std::span<const uint8_t> bytes, size_t at) {
   return value;
 }
 
-// A property's fields: name length with its final 0, name, value length, value.
+// Fields of a property: name length including the final 0, name, value length, value.
 std::optional<Property> ParseProperty(std::span<const uint8_t> bytes, size_t at, size_t end) {
   if (end - at < 4) return std::nullopt;
   const size_t name_size = Load<uint32_t>(bytes, at);
@@ -45,7 +45,7 @@ std::optional<Camera> CameraFrom(std::span<const uint8_t> value) {
   std::array<double, 6> numbers{};
   if (value.size() != sizeof(numbers)) return std::nullopt;
   std::memcpy(numbers.data(), value.data(), sizeof(numbers));
-  const auto pixels = [](double side) {  // 0 for what no int holds, NaN too
+  const auto pixels = [](double side) {  // 0 for values outside int, and NaN
     return std::abs(side) < 1e9 ? static_cast<int>(side) : 0;
   };
   const Camera camera{pixels(numbers[0]), pixels(numbers[1]), numbers[2],
@@ -70,13 +70,14 @@ std::vector<uint8_t> ReadStart(std::ifstream& file, size_t at_most) {
 
 constexpr size_t kLongestPreamble = 1 << 16;  // bytes, a bound by hand; ours is under 2 kB
 
-// By the names of our properties, wherever they stand: what else is damaged does not hide them.
+// Whether ossa wrote the file, by the names of our properties anywhere in its head: other damage
+// must not hide it.
 bool IsOurs(std::span<const uint8_t> start) {
   const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
   return text.find(kOniCameraProperty) != text.npos || text.find(kOniSealProperty) != text.npos;
 }
 
-// Whether OniRecorder takes frames of such a camera.
+// Whether OniRecorder accepts such a camera.
 bool IsRecordable(const std::optional<Camera>& camera) {
   return camera && int64_t{2} * camera->width * camera->height <= kLargestOniData;
 }
@@ -88,8 +89,8 @@ bool SealHolds(std::ifstream& file, const OniPreamble& preamble, std::span<const
   return ComputeOniSeal(file, unsealed) == *preamble.seal;
 }
 
-// Why a file was not opened.
-std::string WhyNot(const std::filesystem::path& path) {
+// The reason why a file could not be opened.
+std::string ExplainFailure(const std::filesystem::path& path) {
   std::error_code unknown;
   const auto type = std::filesystem::status(path, unknown).type();
   using std::filesystem::file_type;
@@ -138,7 +139,8 @@ uint64_t ComputeOniSeal(std::ifstream& file, std::span<const uint8_t> unsealed) 
 
 OniFile CheckOniFile(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path);
-  if (!file) throw InputError(path.string() + ": expected an .oni recording, " + WhyNot(path));
+  if (!file)
+    throw InputError(path.string() + ": expected an .oni recording, " + ExplainFailure(path));
   std::vector<uint8_t> start = ReadStart(file, kLongestPreamble);
   if (start.size() < sizeof(OniFileHeader) || std::memcmp(start.data(), "NI10", 4) != 0) {
     throw InputError(path.string() + ": byte 0: expected an .oni recording (NI10), found " +
@@ -149,7 +151,7 @@ OniFile CheckOniFile(const std::filesystem::path& path) {
   if (preamble.seal && SealHolds(file, preamble, start)) return {preamble.camera, std::nullopt};
   OniFrames frames;
   if (preamble.seal && IsRecordable(preamble.camera)) frames = FindOniFrames(file, preamble.size);
-  // A recorder writes its seal last.
+  // The recorder writes the seal last.
   const bool unsealed = frames.end == OniEnd::kWhole && preamble.seal == 0;
   if (frames.end != OniEnd::kCut && !unsealed) {
     throw InputError(path.string() + ": byte " + std::to_string(preamble.seal_at) +

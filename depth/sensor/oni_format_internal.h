@@ -39,9 +39,9 @@ struct OniRecordHeader {
   uint32_t magic = kMagic;
   uint32_t type = 0;
   uint32_t node_id = 1;
-  uint32_t fields_size = 0;  // bytes, this header included
+  uint32_t fields_size = 0;  // bytes, including this header
   uint32_t payload_size = 0;
-  uint64_t undo_position = 0;                     // of the record of the same kind before this one
+  uint64_t undo_position = 0;  // position of the previous record of the same kind
   static constexpr uint32_t kMagic = 0x0052494E;  // "NIR"
 };
 struct OniSeekEntry {
@@ -52,47 +52,48 @@ struct OniSeekEntry {
 #pragma pack(pop)
 static_assert(sizeof(OniFileHeader) == 24 && sizeof(OniRecordHeader) == 28);
 
-/// The player's buffers: larger frames and seek tables are refused or left out.
+/// Size of the player's buffers: larger frames are refused and larger seek tables omitted.
 inline constexpr int64_t kLargestOniData = 1600 * 1200 * 3;
 
-/// Properties of ours: Camera as six doubles (width height fx fy cx cy), and the XXH3 of the file's
-/// bytes from the first frame to the end, then those before it with the seal's value zeroed.
+/// Our properties: the camera as six doubles (width height fx fy cx cy), and the seal: the XXH3 of
+/// the file's bytes from the first frame to the end, then of those before it with the seal's value
+/// zeroed.
 inline constexpr const char* kOniCameraProperty = "ossaCamera";
 inline constexpr const char* kOniSealProperty = "ossaSeal";
 
-/// What ossa wrote about a recording before its first frame; empty in other programs' files.
+/// Our properties before the first frame; empty in other programs' files.
 struct OniPreamble {
   std::optional<Camera> camera;
   std::optional<uint64_t> seal;
-  size_t seal_at = 0;  // byte of its value
+  size_t seal_at = 0;  // byte offset of its value
   size_t size = 0;     // bytes before the first frame
 };
 
-/// Reads as far as the records before the first frame are well-formed: what is not ours is for
-/// OpenNI2 to judge. Never reads past `bytes`.
+/// Parses as far as the records before the first frame are well-formed; OpenNI2 judges foreign
+/// ones. Never reads past `bytes`.
 OniPreamble ParseOniPreamble(std::span<const uint8_t> bytes);
 
-/// What the seal is to be: the XXH3 of the file's bytes from where `unsealed` ends, then of
-/// `unsealed`, the bytes before the first frame with the seal's value zeroed.
+/// The expected seal: the XXH3 of the file's bytes after `unsealed`, then of `unsealed`, the bytes
+/// before the first frame with the seal's value zeroed.
 uint64_t ComputeOniSeal(std::ifstream& file, std::span<const uint8_t> unsealed);
 
-/// Where a frame's compressed depth lies in the file.
+/// Location of a frame's compressed depth in the file.
 struct OniFrameAt {
   uint64_t timestamp_us = 0;
   uint64_t data_at = 0;
   uint32_t data_size = 0;
 };
 
-/// A recording before it is played.
+/// The result of checking a recording.
 struct OniFile {
-  std::optional<Camera> camera;  // as ossa wrote it; none in other programs' files
-  /// Of a recording of ours that has no seal because its recorder was killed, or that was cut
-  /// short: the frames that are whole. What else is in them nothing can vouch for.
+  std::optional<Camera> camera;  // as written by ossa; none in other programs' files
+  /// For our recordings without a seal, because the recorder was killed, or that are truncated: the
+  /// complete frames. Their content is not verified.
   std::optional<std::vector<OniFrameAt>> unfinished;
 };
 
-/// Throws InputError unless the file begins as an .oni does, and if it carries any property of ours
-/// and is not merely unfinished, has its seal unbroken: it is damaged then.
+/// Throws InputError unless the file starts like an .oni, and, if it has any of our properties and
+/// is not merely unfinished, its seal is valid: otherwise it is damaged.
 OniFile CheckOniFile(const std::filesystem::path& path);
 
 }  // namespace ossa::depth

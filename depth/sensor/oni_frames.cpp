@@ -5,7 +5,7 @@
 namespace ossa::depth {
 namespace {
 
-// A frame's fields: its time, and its number from 1 on.
+// Fields of a frame record: time and number, from 1.
 #pragma pack(push, 1)
 struct FrameFields {
   uint64_t timestamp_us = 0;
@@ -33,7 +33,7 @@ bool EndsARecording(const OniRecordHeader& header) {
          header.type == static_cast<uint32_t>(OniRecord::kEnd);
 }
 
-// Whether OniRecorder puts such a record behind the head.
+// Whether OniRecorder writes such records after the head.
 bool IsKnown(const OniRecordHeader& header) {
   if (header.magic != OniRecordHeader::kMagic || header.payload_size > kLargestOniData)
     return false;
@@ -51,7 +51,7 @@ bool IsKnown(const OniRecordHeader& header) {
   }
 }
 
-// A damaged length leads beyond the end, too: a file that was cut does not end as a whole one.
+// A damaged length also points beyond the end: a truncated file does not end like a complete one.
 OniEnd EndBeyond(std::ifstream& file, uint64_t size) {
   const auto last = ReadAt<OniRecordHeader>(file, size - sizeof(OniRecordHeader));
   return last && EndsARecording(*last) ? OniEnd::kDamaged : OniEnd::kCut;

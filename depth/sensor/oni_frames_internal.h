@@ -7,20 +7,20 @@
 
 namespace ossa::depth {
 
-/// How the records behind the head of a recording of ours come to their end.
+/// How the records of one of our recordings end.
 enum class OniEnd {
-  kWhole,    // with the record that ends a recording, and the file ends there, too
-  kCut,      // the file ends within a record or before the last
-  kDamaged,  // something stands where no recorder put it
+  kWhole,    // with the end record, at the end of the file
+  kCut,      // the file ends within a record or before the end record
+  kDamaged,  // an invalid record
 };
 
 struct OniFrames {
-  std::vector<OniFrameAt> frames;  // those that are whole, in order
+  std::vector<OniFrameAt> frames;  // complete frames, in order
   OniEnd end = OniEnd::kDamaged;
 };
 
-/// Goes from record to record, from byte `begin` on, as OniRecorder writes them. Reads their heads
-/// only: an hour takes a moment.
+/// Walks the records that OniRecorder wrote, starting at byte `begin`. Reads only their headers: an
+/// hour takes a moment.
 OniFrames FindOniFrames(std::ifstream& file, uint64_t begin);
 
 }  // namespace ossa::depth

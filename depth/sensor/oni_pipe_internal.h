@@ -1,6 +1,6 @@
 #pragma once
-// What ossa_oni_reader writes to its standard output and OniFileSource reads: native structs, both
-// ends being of one build on one machine.
+// Protocol from ossa_oni_reader (standard output) to OniFileSource: native structs, because both
+// ends are of one build on one machine.
 #include <cstdint>
 
 #include "depth/sensor/image_window_internal.h"
@@ -10,20 +10,20 @@ namespace ossa::depth {
 struct OniPipeHello {
   static constexpr uint32_t kMagic = 0x6f6e6970;
   uint32_t magic = kMagic;
-  ImageWindow window;               // of the frames to come
-  float horizontal_fov_rad = 0.0f;  // of the whole image
+  ImageWindow window;               // of the following frames
+  float horizontal_fov_rad = 0.0f;  // of the full image
   float vertical_fov_rad = 0.0f;
-  int32_t frame_count = -1;  // -1: the file does not know
+  int32_t frame_count = -1;  // -1: unknown
 };
 
 enum class OniPipeKind : uint32_t { kFrame = 1, kEnd = 2, kError = 3 };
 
-/// Before every message; a frame is followed by its window's width × height uint16 millimetres, not
-/// mirrored; an error by `size` characters.
+/// Header of every message. A frame is followed by its window's width × height uint16 millimetres,
+/// not mirrored; an error by `size` characters.
 struct OniPipeMessage {
   OniPipeKind kind = OniPipeKind::kEnd;
-  uint32_t size = 0;   // of an error's text
-  ImageWindow window;  // that the frame shows
+  uint32_t size = 0;   // size of an error's text
+  ImageWindow window;  // window of the frame
   int64_t index = 0;   // from 0
   uint64_t timestamp_us = 0;
 };

@@ -1,7 +1,7 @@
-// Departure: OpenNI2's own openni::Recorder is not used. It records only streams of a device, in
-// real time, from an endless queue, with a thread that spins, from tables that corrupt values at
-// MAX_VALUE and, by the order in which it ends a frame, some last pixels. The container is simple;
-// that OpenNI2 plays ours back exactly is what the tests check.
+// Departure: OpenNI2's own openni::Recorder is not used. It records only device streams, in real
+// time, with an unbounded queue and a busy-waiting thread, corrupts values at MAX_VALUE by its
+// tables, and some last pixels by the order in which it ends a frame. The container is simple;
+// tests check that OpenNI2 plays ours back exactly.
 #include "depth/sensor/oni_recorder.h"
 
 #include <xxhash.h>
@@ -25,7 +25,7 @@ namespace {
 constexpr uint32_t kDepthNode = 2;             // type of node
 constexpr uint32_t kCodec16zT = 0x547a3631;    // "16zT"
 constexpr uint32_t kGrey16 = 4;                // OpenNI 1's name of the pixel format
-constexpr uint32_t kSupportsGrey16 = 1u << 3;  // as a bit among the supported ones
+constexpr uint32_t kSupportsGrey16 = 1u << 3;  // as a bit of the supported formats
 constexpr uint32_t kDepth1mm = 100;            // OpenNI 2's
 constexpr uint32_t kUnknownCount = ~uint32_t{0};
 
@@ -81,7 +81,7 @@ Bytes GeneralProperty(const std::string& name, const T&... values) {
   return Property(OniRecord::kGeneralProperty, name, bytes);
 }
 
-// Known only at the end, so that everything before the first frame is written twice.
+// Known only at the end: the part before the first frame is written twice.
 struct Totals {
   uint32_t frames = kUnknownCount;
   uint64_t last_timestamp_us = ~uint64_t{0};
@@ -107,7 +107,7 @@ Bytes DeviceName() {
   return GeneralProperty("oniOriginalDevice", name);
 }
 
-// The properties OpenNI2's recorder writes for a depth stream, and our two.
+// The properties that OpenNI2's recorder writes for a depth stream, and our two.
 std::vector<Bytes> StreamProperties(const Camera& camera, int fps, const Totals& totals) {
   const auto width = static_cast<uint32_t>(camera.width);
   const auto height = static_cast<uint32_t>(camera.height);
@@ -169,7 +169,7 @@ struct OniRecorder::State {
     file.Check();
   }
 
-  // Throws InputError for what the format cannot hold.
+  // Throws InputError for frames that the format cannot represent.
   Bytes Encode(const DepthFrame& frame) const {
     const std::string place = name + ": frame " + std::to_string(seek_table.size() - 1) + ": ";
     if (!HasSize(frame, camera.width, camera.height)) {
@@ -197,14 +197,14 @@ struct OniRecorder::State {
     return data;
   }
 
-  // What follows the frames.
+  // Writes the part after the frames.
   Totals PutEnd() {
     Put(Record(OniRecord::kNodeRemoved, {}, 0, sizeof(OniFileHeader)));
     Totals totals;
     totals.frames = static_cast<uint32_t>(seek_table.size() - 1);
     totals.last_timestamp_us = seek_table.back().timestamp_us;
     const size_t table_size = seek_table.size() * sizeof(OniSeekEntry);
-    if (static_cast<int64_t>(table_size) < kLargestOniData) {  // 2.6 hours; longer: no seeking
+    if (static_cast<int64_t>(table_size) < kLargestOniData) {  // 2.6 hours; longer: no seek table
       totals.seek_table_at = position;
       Put(Record(OniRecord::kSeekTable, {}, table_size));
       const auto* entries = reinterpret_cast<const uint8_t*>(seek_table.data());
@@ -221,7 +221,7 @@ struct OniRecorder::State {
     file.Flush();
   }
 
-  // The last frames, of so many bytes or more.
+  // Drops the last frames, at least `bytes` bytes.
   void Drop(uint64_t bytes) {
     for (const uint64_t end = frames_end; end - frames_end < bytes && seek_table.size() > 1;) {
       frames_end = seek_table.back().position;
@@ -229,7 +229,7 @@ struct OniRecorder::State {
     }
   }
 
-  // Time since the first frame, always growing, as the player's seek table must.
+  // Time since the first frame, strictly increasing, as the player's seek table requires.
   uint64_t ComputeTimestamp_us(const DepthFrame& frame) {
     if (seek_table.size() == 1) first_time_s = frame.time_s;
     const double since_us = std::max(0.0, (frame.time_s - first_time_s) * 1e6);
@@ -246,7 +246,7 @@ struct OniRecorder::State {
   std::vector<OniSeekEntry> seek_table{OniSeekEntry{}};  // entry 0 is unused: frames start at 1
   double first_time_s = 0.0;
   uint64_t position = 0;
-  uint64_t frames_end = 0;  // of the last whole one
+  uint64_t frames_end = 0;  // end of the last complete frame
 };
 
 OniRecorder::OniRecorder(const std::filesystem::path& path, const Camera& camera,
@@ -290,8 +290,8 @@ void OniRecorder::Finish() {
   state.file.Commit();
 }
 
-// No room is kept for the end from the beginning: what is cut off makes it, on every file system,
-// and nobody else can be kept from taking it, so that it may take several attempts.
+// Space for the end part is not reserved in advance; it is made by dropping frames, on every file
+// system. Other processes may take that space, so several attempts may be needed.
 int64_t OniRecorder::FinishWithWhatFits() {
   State& state = *state_;
   for (uint64_t to_drop = 0;;) {
@@ -301,7 +301,7 @@ int64_t OniRecorder::FinishWithWhatFits() {
       state.file.CutTo(state.frames_end);
       state.position = state.frames_end;
       Totals totals = state.PutEnd();
-      // The hash that ran along has seen what was cut off.
+      // The running hash includes the dropped frames.
       std::ifstream written = OpenFile(state.file.temporary_path());
       totals.seal =
           ComputeOniSeal(written, Preamble(state.camera, state.frames_per_second, totals));

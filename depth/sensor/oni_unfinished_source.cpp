@@ -1,6 +1,6 @@
-// Recordings of ours that have no end: their recorder was killed, or they were cut. OpenNI2 plays
-// the former as long as no frame is cut, and opens none of the latter; every frame that is whole is
-// read here.
+// Our recordings without an end, because the recorder was killed or the file was truncated. OpenNI2
+// plays the former if no frame is truncated, and none of the latter; this source reads every
+// complete frame.
 #include "depth/base/error.h"
 #include "depth/base/open_file.h"
 #include "depth/image/camera_io.h"

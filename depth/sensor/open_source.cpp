@@ -34,7 +34,7 @@ std::string LowerCaseExtension(const std::filesystem::path& path) {
   return LowerCase(path.extension().string());
 }
 
-// NAME.oni, and what a recorder of it that was killed left: NAME.oni.partial-...
+// NAME.oni, or the leftover of a killed recorder: NAME.oni.partial-...
 bool IsOniName(const std::filesystem::path& path) {
   constexpr const char* kPartial = ".partial-";
   const bool is_left = path.extension().string().starts_with(kPartial);
@@ -57,7 +57,7 @@ struct BagName {
   }
 };
 
-// NAME.bag, and what a recorder of it that was killed left: NAME.bag.active.
+// NAME.bag, or the leftover of a killed recorder: NAME.bag.active.
 bool IsBagName(const std::filesystem::path& path) {
   const std::string extension = LowerCaseExtension(path);
   return LowerCaseExtension(extension == ".active" ? path.stem() : path) == ".bag";
@@ -65,7 +65,7 @@ bool IsBagName(const std::filesystem::path& path) {
 
 }  // namespace
 
-const char* HowToConvert(const std::filesystem::path& file) {
+const char* DescribeConversion(const std::filesystem::path& file) {
   constexpr const char* kXef =
       "a Kinect Studio recording: extract its depth to 16-bit PNGs, by KinectXEFTools or by "
       "playing it into a recorder on Windows, and read that folder";
@@ -108,12 +108,13 @@ const char* HowToConvert(const std::filesystem::path& file) {
 
 namespace {
 
-// Of depth images of another format and nothing else: beside skeletons there may be videos.
+// Whether the folder holds only depth images of another format: beside skeletons there may be
+// videos.
 bool HoldsOnlyForeignImages(const std::filesystem::path& folder) {
   bool any = false;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().filename().string().starts_with('.')) continue;
-    if (!entry.is_regular_file() || HowToConvert(entry.path()) == nullptr) return false;
+    if (!entry.is_regular_file() || DescribeConversion(entry.path()) == nullptr) return false;
     any = true;
   }
   return any;
@@ -126,7 +127,7 @@ bool IsRecording(const std::filesystem::path& path) {
     const std::filesystem::path file = BagName(path.string()).file;
     const std::string extension = LowerCaseExtension(file);
     return IsOniName(path) || extension == ".mkv" || IsBagName(file) || IsPngName(path) ||
-           HowToConvert(file) != nullptr;
+           DescribeConversion(file) != nullptr;
   }
   const std::filesystem::directory_iterator entries(path);
   const bool has_depth = std::any_of(begin(entries), end(entries), [](const auto& entry) {
@@ -151,9 +152,9 @@ void SourceOptions::Check() const {
 
 namespace {
 
-// What a file that the camera was read from states beyond it, and of images of another shape: those
-// are a part of what it is the camera of, or another camera's.
-void TellOfCamera(const std::string& source, const Camera& images, const SourceOptions& options) {
+// Notes what a camera file states beyond the camera, and warns if the images have another aspect
+// ratio: then they are a crop, or of another camera.
+void ReportCamera(const std::string& source, const Camera& images, const SourceOptions& options) {
   if (!options.camera || !options.note) return;
   const Camera& chosen = options.camera->camera;
   if (!options.camera->unheeded.empty()) {
@@ -161,7 +162,7 @@ void TellOfCamera(const std::string& source, const Camera& images, const SourceO
   }
   const int64_t across = int64_t{chosen.width} * images.height;
   const int64_t down = int64_t{chosen.height} * images.width;
-  // Sizes that were halved and rounded are of one shape.
+  // Sizes that were halved and rounded have the same shape.
   const bool is_alike = std::abs(across - down) <= chosen.width + chosen.height;
   if (!options.camera->preset.empty() || chosen.width == 0 || is_alike) return;
   options.note(NoteKind::kWarning, source + ": the camera is stated for images of " +
@@ -172,7 +173,7 @@ void TellOfCamera(const std::string& source, const Camera& images, const SourceO
 
 std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceOptions& options) {
   if (source.starts_with(kDevicePrefix)) {
-    // OpenNI2 takes a file for a device, and plays it again and again with the times of its end.
+    // OpenNI2 treats a file as a device and plays it repeatedly, with wrong times.
     const std::string uri = source.substr(kDevicePrefix.size());
     std::error_code none;
     if (std::filesystem::is_regular_file(uri, none)) return OpenByName(uri, options);
@@ -193,7 +194,7 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
   if (std::filesystem::exists(bag.file, error)) {
     if (extension == ".mkv") return OpenMkvFile(path, options);
     if (IsBagName(bag.file)) return OpenBagFile(bag.file, bag.topic, options);
-    if (const char* how = HowToConvert(bag.file)) {
+    if (const char* how = DescribeConversion(bag.file)) {
       throw InputError(source + ": expected depth images, found " + how);
     }
   }
@@ -212,7 +213,7 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
 std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceOptions& options) {
   options.Check();
   auto opened = OpenByName(source, options);
-  TellOfCamera(source, opened->camera(), options);
+  ReportCamera(source, opened->camera(), options);
   return options.mirrored ? UnmirroredSource(std::move(opened)) : std::move(opened);
 }
 

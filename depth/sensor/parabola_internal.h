@@ -6,16 +6,16 @@
 
 namespace ossa::depth {
 
-/// A parabola a + b t + c t^2 through numbers at equal steps of t from -1 to 1, by least squares.
+/// Least-squares fit of a parabola a + b t + c t^2 to values at equal steps of t from -1 to 1.
 class Parabola {
  public:
   struct Fit {
     double middle = 0.0, slope = 0.0, bend = 0.0;  // a, b, c
-    double rest = 0.0;                             // of the numbers, root mean square
-    double bend_error = 0.0;                       // of c, one sigma
+    double rest = 0.0;                             // root mean square residual
+    double bend_error = 0.0;                       // standard deviation of c
   };
 
-  /// For so many numbers, at least 4.
+  /// For `size` values, at least 4.
   explicit Parabola(int size) : t_(static_cast<size_t>(size)) {
     for (int i = 0; i < size; ++i) t_[static_cast<size_t>(i)] = 2.0 * i / (size - 1) - 1.0;
     for (const double t : t_) squares_ += t * t;

@@ -12,7 +12,7 @@
 namespace ossa::depth {
 namespace {
 
-// A recording whose numbers become millimetres, and places times, on the way out.
+// Wraps a recording: converts its values to millimetres and its indices to times.
 class PreparedSource final : public FrameSource {
  public:
   PreparedSource(std::string name, std::unique_ptr<FrameSource> source,
@@ -53,7 +53,7 @@ class PreparedSource final : public FrameSource {
   std::optional<int64_t> frame_count() const override { return source_->frame_count(); }
 
  private:
-  // At the first frames that show anything. Constants: by hand, 0.1 s and 1 s at 30 Hz.
+  // Examines the first non-empty frames. Constants: by hand, 0.1 s and 1 s at 30 Hz.
   void LookAhead(DepthCensus& census) {
     constexpr size_t kEnoughFrames = 3, kMostFrames = 30;
     while (ahead_.size() < kMostFrames && (ahead_.size() < kEnoughFrames || !census.IsEnough())) {
@@ -84,9 +84,9 @@ class PreparedSource final : public FrameSource {
   std::string name_;
   std::unique_ptr<FrameSource> source_;
   std::optional<double> fps_;
-  std::vector<uint16_t> table_;  // millimetres of each number; empty: they are millimetres
+  std::vector<uint16_t> table_;  // millimetres of each value; empty: identity
   std::deque<ReadResult> ahead_;
-  std::exception_ptr damage_;  // that comes after them
+  std::exception_ptr damage_;  // thrown after these frames
   std::optional<int64_t> first_index_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a program that reads a file for another one may do to the machine.
+// Resource limits of reader programs.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 
 namespace ossa::depth {
 
-/// A library may spin on a file that ends badly: no orphan may do so for ever.
+/// Ends this process with its parent: a library may loop forever on a damaged file.
 inline void EndWithTheParent(pid_t parent) {
   std::thread([parent] {
     while (getppid() == parent) std::this_thread::sleep_for(std::chrono::seconds(1));
@@ -17,7 +17,7 @@ inline void EndWithTheParent(pid_t parent) {
   }).detach();
 }
 
-// Sanitizers' shadows of the address space alone are larger than the limit.
+// Sanitizers' shadow memory alone exceeds the limit.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kHasShadow = true;
 #elif defined(__has_feature)
@@ -27,18 +27,18 @@ inline constexpr bool kHasShadow =
 inline constexpr bool kHasShadow = false;
 #endif
 
-/// Writes to standard output, where the program that wants the frames reads; ends when it is gone.
+/// Writes to standard output, the pipe to the parent; exits when that is gone.
 inline void WriteToParent(const void* data, size_t size) {
   const char* at = static_cast<const char*>(data);
   while (size > 0) {
     const ssize_t written = write(STDOUT_FILENO, at, size);
-    if (written <= 0) _exit(0);  // nobody reads any more
+    if (written <= 0) _exit(0);  // the reader is gone
     at += written;
     size -= static_cast<size_t>(written);
   }
 }
 
-/// Address space to a bound by hand, a hundred frames of the largest, and no core dumps.
+/// Limits the address space to a hundred of the largest frames (by hand), and disables core dumps.
 inline void LimitMemory() {
   constexpr rlim_t kMost = rlim_t{2} << 30;  // bytes
   const rlimit limit{kMost, kMost};

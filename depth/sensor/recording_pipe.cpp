@@ -61,7 +61,7 @@ void RecordingPipe::FailHung() { Fail(library_ + " hangs on it: the recording is
 
 void RecordingPipe::FailClosed() {
   const std::string ending = child_.Ending();
-  // What the loader of programs says where a library is missing.
+  // Exit status of the dynamic loader if a library is missing.
   if (ending == "status 127") Fail("to read such files install " + library_);
   Fail(library_ + " crashed on it (" + ending + "): the recording is damaged");
 }

@@ -9,35 +9,35 @@
 
 namespace ossa::depth {
 
-/// Whose program reads a recording.
+/// The program that reads a recording.
 struct RecordingReader {
   std::filesystem::path program;
   std::vector<std::string> arguments;
-  std::string library;  // that the program uses, as messages name it
+  std::string library;  // the library it uses, for messages
 };
 
-/// What a program that reads a recording writes, for the source of its frames: where it ends or
-/// falls silent there is an InputError that says after which frame and whose fault it is.
+/// The output of a reader program, for a frame source. If the program ends or hangs, it throws an
+/// InputError that names the last frame and the likely cause.
 class RecordingPipe {
  public:
-  /// A reader that is silent for longer than `patience` hangs.
+  /// A reader without output for longer than `patience` is considered hung.
   RecordingPipe(std::string recording, const RecordingReader& reader,
                 std::chrono::milliseconds patience);
 
-  /// Waits for output. False: none yet; InputError once all that waiting exceeds the patience.
+  /// Waits for output. False: none yet; InputError if the total waiting time exceeds the patience.
   bool Wait(std::chrono::milliseconds timeout);
-  /// Exactly `size` bytes.
+  /// Reads exactly `size` bytes.
   void Take(void* to, size_t size);
-  /// A text of so many characters: its beginning, a line's worth; the rest is read and dropped.
+  /// Reads a text of `size` characters and returns its first line's worth.
   std::string TakeText(uint64_t size);
-  /// A frame of this number was taken whole.
-  void TookFrame(int64_t index) { next_frame_ = index + 1; }
+  /// Records that this frame was read completely.
+  void RecordFrame(int64_t index) { next_frame_ = index + 1; }
   int64_t next_frame() const { return next_frame_; }
 
-  /// Nothing comes any more, from now on or since something failed.
+  /// Marks the end of the output.
   void End() { ended_ = true; }
   bool ended() const { return ended_; }
-  /// Throws InputError: the recording, after which frame, and what is wrong.
+  /// Throws InputError with the recording, the last frame and the reason.
   [[noreturn]] void Fail(const std::string& what);
 
  private:

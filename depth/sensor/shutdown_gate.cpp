@@ -7,7 +7,7 @@ namespace {
 
 struct Gate {
   std::mutex mutex;
-  int closed = 0;  // by so many
+  int closed = 0;  // number of closers
 };
 
 Gate& TheGate() {

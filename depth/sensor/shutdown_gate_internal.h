@@ -3,15 +3,15 @@
 
 namespace ossa::depth {
 
-/// OpenNI2 holds its lock while it shuts down and waits for its drivers to end; a driver's thread
-/// that announces a device just then waits for that lock, and neither ever goes on. So our drivers
-/// announce only through a gate that our sessions close for the time of a shutdown.
-/// Process-wide, as OpenNI2 itself is.
+/// OpenNI2 holds its lock while it shuts down and waits for its drivers; a driver thread that
+/// announces a device at that moment waits for the lock: a deadlock. So our drivers announce only
+/// through a gate that our sessions close during a shutdown. Process-wide, as OpenNI2 is. Calls
+/// `announce` unless a shutdown is in progress: then it returns false at once.
 
 /// Calls `announce` unless a shutdown is under way: then it returns false at once.
 bool AnnounceUnlessShuttingDown(const std::function<void()>& announce);
 
-/// Closes the gate; returns when no announcement is under way.
+/// Closes the gate; blocks until no announcement is in progress.
 class ShutdownGateClosed {
  public:
   ShutdownGateClosed();

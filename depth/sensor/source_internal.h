@@ -8,14 +8,14 @@
 
 namespace ossa::depth {
 
-/// A folder of 16-bit PNGs, ordered and timed as ListDepthFolder says. A frame number that is
-/// missing counts as a dropped frame, and time passes. Frames that cannot be read, or are of
-/// another size than most, are skipped, count as dropped, and are told of at the end; where there
-/// is no other, the first one's InputError is thrown.
+/// A folder of 16-bit PNGs, ordered and timed by ListDepthFolder. Missing frame numbers count as
+/// dropped frames, and time passes. Frames that are unreadable or of another size than most are
+/// skipped, counted as dropped, and reported at the end; if there are no others, the first one's
+/// InputError is thrown.
 std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
                                         const SourceOptions& options);
 
-/// One 16-bit PNG: a recording of a single frame. Camera as of the folder or data set it is in.
+/// One 16-bit PNG: a recording of one frame. The camera is that of its folder or data set.
 std::unique_ptr<FrameSource> OpenStill(const std::filesystem::path& png,
                                        const SourceOptions& options);
 
@@ -24,51 +24,50 @@ bool IsDataSet(const std::filesystem::path& folder);
 std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,
                                          const SourceOptions& options);
 
-/// An .oni recording, played by OpenNI2 in a child process: a file that crashes or hangs the
-/// library is an InputError here, at opening or at the frame where it happens.
+/// An .oni recording, played by OpenNI2 in a child process: if a file makes the library crash or
+/// hang, that is an InputError, at opening or at the frame where it happens.
 std::unique_ptr<FrameSource> OpenOniFile(const std::filesystem::path& path,
                                          const SourceOptions& options);
 
-/// An Azure Kinect's or a Femto's recording: depth undistorted by the calibration in it. Read by
-/// libavformat in a child process.
+/// An Azure Kinect or Femto recording: depth undistorted by its calibration. Read by libavformat in
+/// a child process.
 std::unique_ptr<FrameSource> OpenMkvFile(const std::filesystem::path& path,
                                          const SourceOptions& options);
 
-/// A ROS 1 bag; topic "": the one named after depth. Read by rosbag_storage in a child process.
+/// A ROS 1 bag; topic "": chosen automatically. Read by rosbag_storage in a child process.
 std::unique_ptr<FrameSource> OpenBagFile(const std::filesystem::path& path,
                                          const std::string& topic, const SourceOptions& options);
 
-/// `options.camera` for images of this size. Presets are of the sensor as it looks: where images
-/// are mirrored, of these, as any other camera of them is.
+/// `options.camera` for images of this size. Presets describe the unmirrored sensor; for mirrored
+/// images they are mirrored, like all cameras of such images.
 Camera ChosenCamera(const SourceOptions& options, int width, int height);
 
-/// The camera whose images have this size, of mirrored ones likewise; says in a note which was
-/// taken for whose.
+/// The preset camera with this image size, mirrored for mirrored images; notes which one was
+/// assumed.
 Camera CameraByImageSize(const std::string& name, int width, int height,
                          const SourceOptions& options);
 
-/// Of files that ossa does not read, by their extension: what they are and what makes ones of them
-/// that it does; null of others.
-const char* HowToConvert(const std::filesystem::path& file);
+/// For unsupported files, by extension: the format, and how to convert it; null for others.
+const char* DescribeConversion(const std::filesystem::path& file);
 
-/// Whether a source says what its numbers are.
+/// Whether a source states the unit of its values.
 enum class UnitStated { kNo, kYes };
 
-/// The source with numbers and times as the options say. Without them, InputError where the first
-/// frames of a source that states no unit cannot be millimetres of people.
+/// The source with values and times converted by the options. Without options, throws InputError if
+/// the first frames of a source without a stated unit cannot be millimetres of people.
 std::unique_ptr<FrameSource> Prepared(const std::string& name, std::unique_ptr<FrameSource> source,
                                       UnitStated unit, const SourceOptions& options);
 
-/// The source's images and cameras with left and right exchanged (SourceOptions::mirrored). Last of
-/// all: lenses and windows of its images are stated of them as they lie in it.
+/// The source's images and cameras with left and right exchanged (SourceOptions::mirrored). Must be
+/// the outermost wrapper: distortion and windows refer to the stored images.
 std::unique_ptr<FrameSource> UnmirroredSource(std::unique_ptr<FrameSource> source);
 
-/// One of ours without an end (OniFile::unfinished), of which the options' note is told: its whole
-/// frames. A frame whose bytes are damaged throws InputError; reading again goes on with the next.
+/// One of our unfinished recordings (OniFile::unfinished), which is noted: its complete frames. A
+/// frame with damaged bytes throws InputError; reading can continue with the next.
 std::unique_ptr<FrameSource> OpenUnfinishedOni(const std::filesystem::path& path, OniFile recording,
                                                const SourceOptions& options);
 
-/// A device; an empty URI means the first found.
+/// A device; an empty URI selects the first one.
 std::unique_ptr<FrameSource> OpenOpenNiDevice(const std::string& uri, const SourceOptions& options);
 
 }  // namespace ossa::depth

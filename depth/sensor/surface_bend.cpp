@@ -8,17 +8,17 @@
 #include "depth/sensor/corner_internal.h"
 #include "depth/sensor/parabola_internal.h"
 
-// Constants: chosen on 1 100 rendered frames of every view, noise and size and on the real ones
-// that depth_units_test.cpp looks at: none is suspected, and of the rendered ones turned round two
-// thirds to four fifths are. The rest shows too few slanted surfaces.
+// Constants: chosen on 1 100 rendered frames of every view, noise and size and on the real ones of
+// depth_units_test.cpp: none is suspected, and two thirds to four fifths of the rendered ones are
+// when inverted. The rest shows too few slanted surfaces.
 namespace ossa::depth {
 namespace {
 
-// The bend over that of a plane of this slope: 1 of a plane. Nothing where the surface is hardly
-// slanted, falls away as an edge does, or is no smooth one.
+// Curvature relative to that of a plane with this slope: 1 for a plane. None if the surface is
+// hardly slanted, falls away like an edge, or is not smooth.
 std::optional<double> ComputePlaneBend(const Parabola::Fit& fit) {
   constexpr double kLeastSlope = 0.05, kMostSlope = 0.6;     // of the distance, over half a window
-  constexpr double kMostRest = 0.7, kMostError = 1.0 / 3.0;  // of a plane's bend
+  constexpr double kMostRest = 0.7, kMostError = 1.0 / 3.0;  // of a plane's curvature
   const double slope = std::abs(fit.slope), plane = slope * slope / fit.middle;
   if (slope < kLeastSlope * fit.middle || slope > kMostSlope * fit.middle) return std::nullopt;
   if (fit.rest > kMostRest * plane || fit.bend_error > kMostError * plane) return std::nullopt;
@@ -26,17 +26,17 @@ std::optional<double> ComputePlaneBend(const Parabola::Fit& fit) {
 }
 
 bool IsMostly(int64_t some, int64_t others) {
-  constexpr int64_t kMostly = 3;  // to one
+  constexpr int64_t kMostly = 3;  // majority ratio
   return some > kMostly * others;
 }
 
 }  // namespace
 
 void SurfaceBend::AddLines(const DepthView& image, bool columns) {
-  constexpr int kWindows = 10;   // side by side in a row
+  constexpr int kWindows = 10;   // windows per row
   constexpr int kLeastSize = 8;  // pixels
-  constexpr int kLines = 160;    // of an image's width
-  constexpr double kKink = 0.8;  // of what a parabola leaves, by hand: of noise both leave as much
+  constexpr int kLines = 160;    // evaluated lines per image width
+  constexpr double kKink = 0.8;  // ratio of residuals; by hand: with noise both are equal
   const int size = std::max(kLeastSize, image.width / kWindows);
   const int step = std::max(1, image.width / kLines), hop = size / 4;
   const int lines = columns ? image.width : image.height;
@@ -55,7 +55,7 @@ void SurfaceBend::AddLines(const DepthView& image, bool columns) {
       const auto bend = ComputePlaneBend(fit);
       if (bend && *bend > 0.4 && *bend < 1.8) ++as_planes_;
       const bool is_opposite = bend && *bend > -8.0 && *bend < -0.1;
-      // The corner between a floor and a wall bends so, too, but as a kink.
+      // The corner between floor and wall bends in the same direction, but as a kink.
       if (is_opposite && corner.Rest(z) > kKink * fit.rest) ++opposite_;
     }
   }
@@ -66,14 +66,14 @@ void SurfaceBend::Add(const DepthView& image) {
   AddLines(image, true);
 }
 
-bool SurfaceBend::IsWrongWayRound() const {
-  constexpr double kEnough = 0.012;  // of the windows: a corner of a room has fewer
+bool SurfaceBend::IsInverted() const {
+  constexpr double kEnough = 0.012;  // share of the windows: a corner of a room has fewer
   return static_cast<double>(as_planes_ + opposite_) > kEnough * static_cast<double>(windows_) &&
          IsMostly(opposite_, as_planes_);
 }
 
-bool SurfaceBend::IsRightWayRound() const {
-  constexpr int64_t kFew = 12;  // windows; a narrow view shows no surface much slanted
+bool SurfaceBend::IsNotInverted() const {
+  constexpr int64_t kFew = 12;  // windows; narrow views show few slanted surfaces
   return as_planes_ >= kFew && IsMostly(as_planes_, opposite_);
 }
 

@@ -6,15 +6,15 @@
 namespace ossa::depth {
 namespace {
 
-class Unmirroring final : public FrameSource {
+class UnmirroredFrames final : public FrameSource {
  public:
-  explicit Unmirroring(std::unique_ptr<FrameSource> source)
+  explicit UnmirroredFrames(std::unique_ptr<FrameSource> source)
       : source_(std::move(source)), camera_(Unmirrored(source_->camera())) {}
 
   ReadResult Read(std::chrono::milliseconds timeout) override {
     ReadResult read = source_->Read(timeout);
     if (read.status == ReadStatus::kFrame) read.frame = Unmirrored(read.frame);
-    camera_ = Unmirrored(source_->camera());  // a device that comes back may be another
+    camera_ = Unmirrored(source_->camera());  // a reconnected device may be another one
     return read;
   }
   const Camera& camera() const override { return camera_; }
@@ -29,7 +29,7 @@ class Unmirroring final : public FrameSource {
 }  // namespace
 
 std::unique_ptr<FrameSource> UnmirroredSource(std::unique_ptr<FrameSource> source) {
-  return std::make_unique<Unmirroring>(std::move(source));
+  return std::make_unique<UnmirroredFrames>(std::move(source));
 }
 
 }  // namespace ossa::depth

@@ -1,6 +1,6 @@
-// OpenSim's TRC marker table: five header lines, then a row a frame, tab separated. Markers are the
-// 20 joints, camera space, millimetres; blank where they were not seen: the format has no states,
-// and what has none counts as seen.
+// OpenSim's TRC marker table: five header lines, then one row per frame, separated by tabs. Markers
+// are the 20 joints, camera space, millimetres. Unseen joints are blank, because the format has no
+// states; joints without a state count as seen.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 
 constexpr double kMillimetresPerMetre = 1000.0;
 
-// How many frames there are, and from when to when: the header says it, before all rows.
+// Number of frames and time range, which the header states.
 struct Extent {
   int64_t frames = 0;
   double first_s = 0.0, last_s = 0.0;
 
-  // The mean rate; OpenSim wants one even when frames were dropped (the Time column stays exact).
+  // The mean rate. OpenSim requires one even if frames were dropped (the Time column is exact).
   double Rate_Hz() const {
     constexpr double kUsualRate_Hz = 30.0;  // by convention, a Kinect SDK's rate
     const double span_s = last_s - first_s;
@@ -33,7 +33,7 @@ struct Extent {
   }
 };
 
-// With so many spaces at the end of its third line, which readers pass over.
+// The header, with `spaces` trailing spaces on its third line, which readers ignore.
 std::string Header(const Extent& extent, const fs::path& path, size_t spaces = 0) {
   std::string text = "PathFileType\t4\t(X/Y/Z)\t" + OnOneLine(path.filename().string()) +
                      "\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\t"
@@ -61,8 +61,8 @@ std::string Row(int64_t number, double time_s, const BodyRecord* body) {
   return row + '\n';
 }
 
-// One person's table, written as it comes. Its header has room for what it will say at the end,
-// which is taken out then.
+// One person's table, written incrementally. Space is reserved in the header for its final values;
+// what is unused is removed at the end.
 class MarkerTable {
  public:
   MarkerTable(const fs::path& path, std::optional<int> id) : id_(id), path_(path), file_(path) {
@@ -81,32 +81,32 @@ class MarkerTable {
     written_ += row.size();
   }
   void Flush() { file_.Flush(); }
-  /// What was appended and flushed stays, whatever follows.
+  /// Marks what was appended and flushed as kept.
   void Keep() {
     end_ += written_;
     written_ = 0;
   }
-  /// Keeps nothing of what was appended since.
+  /// Discards what was appended since Keep.
   void Cut() { file_.CutTo(end_); }
   void Finish(const Extent& extent) {
     const std::string header = Header(extent, path_);
     file_.stream().seekp(0);
     file_.stream() << header;
-    file_.TakeOut(header.size(), room_ - header.size());
+    file_.RemoveBytes(header.size(), room_ - header.size());
     file_.Commit();
   }
 
  private:
-  // Two counts and three rates in place of the first ones, each of as many digits as a
-  // number has: bytes, derived from the format of a double.
+  // Two counts and three rates, with the maximum digits of a double: bytes, derived from the format
+  // of a double.
   static constexpr size_t kRoom = 1100;
 
   std::optional<int> id_;
   fs::path path_;
   AtomicFile file_;
   size_t room_ = 0;
-  uint64_t end_ = 0;      // of what is kept
-  uint64_t written_ = 0;  // behind it
+  uint64_t end_ = 0;      // end of the kept part
+  uint64_t written_ = 0;  // end of the written part
 };
 
 class TrcWriter final : public SkeletonWriter::Format {
@@ -116,14 +116,14 @@ class TrcWriter final : public SkeletonWriter::Format {
   }
 
   void Write(const SkeletonFrame& frame) override {
-    for (const BodyRecord& body : frame.bodies) NeedTable(body.id);
+    for (const BodyRecord& body : frame.bodies) RequireTable(body.id);
     const auto number = static_cast<int64_t>(times_s_.size()) + 1;
     for (const auto& table : tables_) {
       const auto body = std::find_if(frame.bodies.begin(), frame.bodies.end(),
                                      [&](const auto& b) { return b.id == table->id(); });
       table->Append(Row(number, frame.time_s, body == frame.bodies.end() ? nullptr : &*body));
     }
-    // Either all tables keep the frame or none.
+    // All tables keep the frame, or none does.
     for (const auto& table : tables_) table->Flush();
     for (const auto& table : tables_) table->Keep();
     times_s_.push_back(frame.time_s);
@@ -141,8 +141,8 @@ class TrcWriter final : public SkeletonWriter::Format {
   }
 
  private:
-  // The first who is seen has the first table; who comes later begins with rows of nobody.
-  void NeedTable(int id) {
+  // The first person seen gets the first table. Tables of later people start with blank rows.
+  void RequireTable(int id) {
     for (const auto& table : tables_) {
       if (!table->id()) table->set_id(id);
       if (table->id() == id) return;

@@ -23,7 +23,7 @@ bool GoesOn(uint16_t a_mm, uint16_t b_mm) {
 bool MayBeFloor(const LabelledFrame& frame, int u, int v) {
   const Eigen::Vector3d place_m =
       depth::BackProject(frame.depth.camera, u, v, frame.depth.view().at(u, v));
-  return depth::OnOrUnder({*frame.floor}, place_m.cast<float>());
+  return depth::IsOnOrBelow({*frame.floor}, place_m.cast<float>());
 }
 
 }  // namespace

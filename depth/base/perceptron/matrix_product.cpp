@@ -14,7 +14,7 @@ constexpr Eigen::Index kTileColumns = 2 * kLanes;
 
 struct Factors {
   const float* a = nullptr;   // rows × inner
-  Eigen::Index a_stride = 0;  // from row to row
+  Eigen::Index a_stride = 0;  // stride between rows
   const float* b = nullptr;   // inner × columns
   Eigen::Index b_stride = 0;
   float* out = nullptr;  // rows × columns
@@ -22,18 +22,18 @@ struct Factors {
   Eigen::Index columns = 0;
 };
 
-// Of the inner indices so many at a time: what a tile reads of b stays in the nearest cache. The
-// sums wait in `out` in between, which takes no bit from them.
+// Inner indices per block: the part of b that a tile reads stays in the L1 cache. Partial sums are
+// stored in `out` in between, without loss of precision.
 constexpr Eigen::Index kInnerBlock = 256;
-constexpr int kTileRows = 6;  // with two columns of lanes: as many sums as AVX2 has registers for
+constexpr int kTileRows = 6;  // with two columns of lanes: uses all AVX2 registers for sums
 
-// The next inner indices, and what b has in them of a tile's columns, line by line.
+// A block of inner indices, with the packed columns of b for a tile.
 struct Block {
   Eigen::Index begin = 0, end = 0;
   alignas(64) float b[kInnerBlock * kTileColumns];
 };
 
-// Columns that b does not have are nought.
+// Missing columns of b are padded with zeros.
 [[gnu::always_inline]] inline void Pack(const Factors& f, Eigen::Index column, Eigen::Index columns,
                                         Block* block) {
   for (Eigen::Index k = block->begin; k < block->end; ++k) {
@@ -43,7 +43,7 @@ struct Block {
   }
 }
 
-// kRows rows of the product by kTileColumns columns, held in registers while the inner index runs.
+// kRows x kTileColumns elements of the product, held in registers over the inner index.
 template <int kRows>
 [[gnu::always_inline]] inline void Tile(const Factors& f, const Block& block, Eigen::Index row,
                                         Eigen::Index column) {
@@ -54,7 +54,7 @@ template <int kRows>
   const float* a = f.a + row * f.a_stride + block.begin;
   const float* b = block.b;
   for (Eigen::Index k = block.begin; k < block.end; ++k, ++a, b += kTileColumns) {
-    Lanes left, right;  // loaded one by one: copied together they would go through memory
+    Lanes left, right;  // loaded separately: copying both would go through memory
     LoadLanes(b, &left);
     LoadLanes(b + kLanes, &right);
     for (int r = 0; r < kRows; ++r) {
@@ -87,7 +87,7 @@ OSSA_CPU_DISPATCH void MultiplyTiles(const Factors& f, Eigen::Index rows) {
   }
 }
 
-// A row's sums over kInner inner indices from `k` on, added to what is there already.
+// Adds the products of kInner inner indices from `k` on to a row's sums.
 template <int kInner>
 [[gnu::always_inline]] inline void AddToRow(const Factors& f, Eigen::Index row, Eigen::Index k) {
   const float* a = f.a + row * f.a_stride + k;
@@ -106,8 +106,8 @@ template <int kInner>
   }
 }
 
-// A few rows by a matrix that the caches nearest to the processor cannot hold: it is read once, in
-// the order in which it lies, instead of tile by tile.
+// A few rows times a matrix larger than the L1 and L2 caches: it is read once, in memory order,
+// instead of tile by tile.
 OSSA_CPU_DISPATCH void MultiplyFewRows(const Factors& f, Eigen::Index rows) {
   constexpr int kAtOnce = 4;  // rows of b; measured: more are no faster
   std::fill(f.out, f.out + rows * f.columns, 0.0F);
@@ -118,7 +118,7 @@ OSSA_CPU_DISPATCH void MultiplyFewRows(const Factors& f, Eigen::Index rows) {
   }
 }
 
-// The columns that fill no tile, as one that nought fills.
+// The remaining columns, as one zero-padded tile.
 OSSA_CPU_DISPATCH void MultiplyRest(const Factors& f, Eigen::Index rows) {
   const Eigen::Index rest = f.columns % kTileColumns;
   if (rest == 0) return;

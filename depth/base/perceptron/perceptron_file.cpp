@@ -12,15 +12,15 @@
 namespace ossa {
 namespace {
 
-constexpr float kMost = 1e6F;        // of any number, no unit; by hand: sums of such stay finite
-constexpr float kMostByte = 127.0F;  // of a weight; derived: the largest int8_t
+constexpr float kMost = 1e6F;  // bound of all numbers, no unit; by hand: their sums stay finite
+constexpr float kMostByte = 127.0F;  // largest weight; derived: the largest int8_t
 
 template <typename Numbers>
 void PutFloats(PayloadWriter& out, const Numbers& numbers) {
   out.PutArray(std::span<const float>(numbers.data(), static_cast<size_t>(numbers.size())));
 }
 
-// Row by row.
+// Writes the numbers row by row.
 template <typename Numbers>
 std::span<const float> Flat(const Numbers& numbers) {
   return {numbers.data(), static_cast<size_t>(numbers.size())};
@@ -54,7 +54,7 @@ RowMatrix GetBytes(PayloadReader& in, std::string_view field, Eigen::Index rows,
   return rounded.ToWeights();
 }
 
-// An input's weights as steps, of which the largest is kMostByte.
+// Quantises an input's weights; the largest becomes kMostByte.
 OSSA_CPU_DISPATCH void DivideIntoSteps(const float* weights, float step, size_t count,
                                        int8_t* steps) {
   for (size_t i = 0; i < count; ++i) {
@@ -96,7 +96,7 @@ bool AreModest(const RowMatrix& numbers) {
 }
 
 uint16_t RoundToHalf(float number) {
-  const uint32_t half = std::isfinite(number) ? 0x8000U : 0U;  // rounded, but not NaN to a number
+  const uint32_t half = std::isfinite(number) ? 0x8000U : 0U;  // rounds to nearest, but keeps NaN
   return static_cast<uint16_t>((std::bit_cast<uint32_t>(number) + half) >> 16U);
 }
 
@@ -107,11 +107,11 @@ WeightBytes RoundToBytes(const RowMatrix& weight) {
   rounded.bytes.setZero(weight.rows(), weight.cols());
   rounded.step.setZero(weight.rows());
   for (Eigen::Index i = 0; i < weight.rows(); ++i) {
-    // In halves of floats, 127 steps are a float and divided by 127 a step again.
+    // Chosen so that 127 steps are exactly a half, and the step is recovered by dividing by 127.
     const float largest = weight.row(i).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     const float step = ExpandHalf(RoundToHalf(largest / kMostByte));
     rounded.step[i] = step;
-    if (!(step > 0.0F && std::isfinite(step))) continue;  // nothing that steps could express
+    if (!(step > 0.0F && std::isfinite(step))) continue;  // not representable in steps
     DivideIntoSteps(weight.row(i).data(), step, static_cast<size_t>(weight.cols()),
                     rounded.bytes.row(i).data());
   }

@@ -11,9 +11,9 @@ namespace {
 constexpr float kMeanKept = 0.9F;  // no unit: Adam's beta 1 and 2 and epsilon (Kingma and Ba 2015)
 constexpr float kSquareKept = 0.999F;     // no unit; Kingma and Ba 2015
 constexpr float kLeastRoot = 1e-8F;       // no unit; Kingma and Ba 2015
-constexpr float kLastLayerScale = 0.05F;  // a factor, by hand: it starts by saying little
+constexpr float kLastLayerScale = 0.05F;  // a factor, by hand: initial outputs are small
 
-// He et al. 2015: activations keep their size from layer to layer.
+// He et al. 2015: keeps the variance of activations between layers.
 RowMatrix RandomWeights(Eigen::Index inputs, Eigen::Index outputs, Random* random) {
   RowMatrix weight(inputs, outputs);
   const double bound = std::sqrt(6.0 / static_cast<double>(inputs));
@@ -27,7 +27,7 @@ struct Running {
   float *value, *mean, *square;
 };
 
-// In one go: the numbers are far more than the nearest caches hold.
+// In a single pass: the parameters exceed the L1 and L2 caches.
 OSSA_CPU_DISPATCH void DescendAll(const Running& of, const float* gradient, Eigen::Index count,
                                   float rate, float square_scale) {
   float* __restrict value = of.value;
@@ -41,7 +41,8 @@ OSSA_CPU_DISPATCH void DescendAll(const Running& of, const float* gradient, Eige
   }
 }
 
-// The upper half of a float's bits, rounded: more says nothing, and costs the file two bytes each.
+// Rounded to the upper half of a float's bits: the rest is below the accuracy of training, and
+// would cost two bytes each in the file.
 float Rounded(float value) {
   const auto bits = std::bit_cast<uint32_t>(value);
   return std::bit_cast<float>((bits + 0x8000U) & 0xffff0000U);
@@ -105,7 +106,7 @@ void PerceptronTrainer::Step(RowMatrix gradient, float rate) {
     const RowMatrix& input = activation_[l];
     const RowMatrix by_weight = Multiply(input.transpose(), gradient);
     const RowMatrix by_bias = gradient.colwise().sum();
-    if (l > 0) {  // through the rectifier and the units that were not dropped
+    if (l > 0) {  // through the rectifier and dropout
       gradient = Multiply(gradient, weight_[l].value.transpose());
       gradient = (input.array() > 0.0F).select(gradient, 0.0F) / (1.0F - regularisation_.dropped);
     }

@@ -7,31 +7,31 @@
 
 namespace ossa {
 
-/// Layers of a perceptron while they are learned: stochastic gradient descent with momentum and a
-/// step of its own for every weight (Kingma and Ba 2015, "Adam"; decay apart from the gradient as
-/// Loshchilov and Hutter 2019), with dropout (Srivastava et al. 2014). The same bytes on every
-/// machine and for any number of threads: it runs in one, by products in a fixed order.
+/// Trains the layers of a perceptron by Adam (Kingma and Ba 2015), with decoupled weight decay
+/// (Loshchilov and Hutter 2019) and dropout (Srivastava et al. 2014). Single-threaded with a fixed
+/// order of products, so the bytes are the same on every machine.
 class PerceptronTrainer {
  public:
-  /// What keeps a perceptron from overfitting.
+  /// Regularisation parameters.
   struct Regularisation {
-    float decay = 0.0F;    // of weights, a unit of the rate
-    float dropped = 0.0F;  // share of hidden units at each step, [0, 1)
+    float decay = 0.0F;    // weight decay per unit of the learning rate
+    float dropped = 0.0F;  // dropout, share of hidden units, [0, 1)
   };
 
   /// `widths`: inputs, hidden layers, outputs.
   PerceptronTrainer(const std::vector<Eigen::Index>& widths, Regularisation regularisation,
                     uint64_t seed);
 
-  /// Outputs of a batch of inputs, hidden units dropped at random. Kept for Step.
+  /// Forward pass of a batch with dropout; activations are kept for Step.
   const RowMatrix& Forward(RowMatrix batch);
-  /// One step down the gradient (of the loss by the outputs of the last Forward).
+  /// Backward pass and update, given the gradient of the loss with respect to the outputs of the
+  /// last Forward.
   void Step(RowMatrix gradient, float rate);
 
   std::vector<PerceptronLayer> Layers() const;
 
  private:
-  /// Numbers that are learned, with Adam's running means of their gradient and of its square.
+  /// Parameters, with Adam's running means of their gradient and squared gradient.
   struct Learned {
     RowMatrix value, mean, square;
 
@@ -42,7 +42,7 @@ class PerceptronTrainer {
 
   std::vector<Learned> weight_, bias_;
   Regularisation regularisation_;
-  std::vector<RowMatrix> activation_;  // the batch, then each layer's outputs
+  std::vector<RowMatrix> activation_;  // the batch, then the outputs of each layer
   Random random_;
   int step_ = 0;
 };

@@ -14,26 +14,27 @@
 namespace ossa {
 namespace {
 
-// Of a map the largest feature is so many steps, by hand, and an output's weights together are so
-// many that no sum of products reaches 2^31: so either is rounded about as finely.
+// Maximum quantised feature, by hand, and maximum sum of an output's weights: no sum of products
+// reaches 2^31, and both are quantised with similar resolution.
 constexpr int kMostFeature = (1 << 12) - 1;
 constexpr int kMostWeights = std::numeric_limits<int32_t>::max() / kMostFeature;
 constexpr int kMostWeight = std::numeric_limits<int16_t>::max();
 
-// Pairs are multiplied: of an odd number of channels the last is paired with zeros.
+// Channels are multiplied in pairs: an odd number is padded with a zero.
 size_t PaddedChannels(Eigen::Index channels) { return static_cast<size_t>(channels + 1) / 2 * 2; }
 
-// What a weight's 1 is worth, of each output.
+// Weight scale of each output.
 Eigen::RowVectorXf ChooseSteps(const RowMatrix& weight) {
   if (weight.rows() == 0) return Eigen::RowVectorXf::Zero(weight.cols());
-  // Rounding adds half a step at most to each weight.
+  // Rounding adds up to half a step per weight.
   const float most = static_cast<float>(kMostWeights) - static_cast<float>(weight.rows());
   const Eigen::RowVectorXf largest = weight.cwiseAbs().colwise().maxCoeff();
   const Eigen::RowVectorXf whole = weight.cwiseAbs().colwise().sum();
   return (largest / static_cast<float>(kMostWeight)).cwiseMax(whole / most);
 }
 
-// The largest magnitude, not finite where any is: the bits of positive numbers grow as they do.
+// The largest magnitude; not finite if any feature is not. The bits of non-negative floats have the
+// same order as their values.
 OSSA_CPU_DISPATCH float FindLargest(const float* numbers, size_t count) {
   int32_t largest = 0;
   for (size_t i = 0; i < count; ++i) {
@@ -49,7 +50,7 @@ OSSA_CPU_DISPATCH void Scale(const int32_t* sums, const float* step, const float
   for (size_t i = 0; i < count; ++i) out[i] = bias[i] + step[i] * static_cast<float>(sums[i]);
 }
 
-// A map of whole numbers with a border of zeros, as wide as a window reaches.
+// A quantised map, padded with zeros by the reach of a kernel.
 class RoundedMap {
  public:
   RoundedMap(const FeatureMap& map, int border)
@@ -59,7 +60,7 @@ class RoundedMap {
     const float largest = FindLargest(map.cells.data(), static_cast<size_t>(map.cells.size()));
     step_ = largest / static_cast<float>(kMostFeature);
     const bool is_something = step_ > std::numeric_limits<float>::min() && std::isfinite(largest);
-    if (!is_something) return;  // all are nought, or times the step not finite
+    if (!is_something) return;  // all zero, or the scale is not finite
     const auto side = static_cast<size_t>(map.side), given = static_cast<size_t>(map.cells.cols());
     const float times = static_cast<float>(kMostFeature) / largest;
     for (size_t row = 0; row < side; ++row) {
@@ -81,7 +82,7 @@ class RoundedMap {
   const int16_t* At(size_t row, size_t column) const {
     return numbers_.data() + (row * side_ + column) * channels_;
   }
-  /// Whether the columns from `column` on, so many, are the same as those `before` to the left.
+  /// Whether `columns` columns from `column` on are equal to those `before` to the left.
   bool IsLikeLeft(size_t row, size_t column, size_t columns, size_t before) const {
     return std::memcmp(At(row, column), At(row, column - before),
                        columns * channels_ * sizeof(int16_t)) == 0;
@@ -97,10 +98,10 @@ class RoundedMap {
   float step_ = 0.0F;
 };
 
-// What outputs read. Where nobody is one window after the other is the same: it is read once.
+// The distinct windows of a map. Background windows are equal and are evaluated once.
 struct DistinctWindows {
   std::vector<const int16_t*> first;
-  std::vector<size_t> of_cell;  // which of them each output cell reads
+  std::vector<size_t> of_cell;  // window of each output cell
 
   DistinctWindows(const RoundedMap& map, size_t side, size_t size, size_t stride) {
     first.reserve(side * side);

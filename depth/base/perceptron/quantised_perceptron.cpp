@@ -17,7 +17,7 @@ namespace {
 
 size_t CountPairs(Eigen::Index inputs) { return (static_cast<size_t>(inputs) + 1) / 2; }
 
-// So many quanta at most is a factor: then sums of all of them times a byte each stay below 2^31.
+// Largest quantised factor: the sum of all factors times a byte each stays below 2^31.
 float MostQuanta(size_t factors) {
   constexpr size_t kMostSum = std::numeric_limits<int32_t>::max();
   constexpr size_t kMostWeight = std::numeric_limits<int8_t>::max();
@@ -25,15 +25,15 @@ float MostQuanta(size_t factors) {
   return static_cast<float>(std::min(kMost, kMostSum / (kMostWeight * factors)));
 }
 
-// Quantises an example's factors, and returns how much a quantum is.
+// Quantises an example's factors and returns the scale.
 template <size_t kExamples>
 float Quantise(const Eigen::RowVectorXf& factors, size_t example,
                std::vector<PairFactors<kExamples>>* pairs) {
   const auto count = static_cast<size_t>(factors.size());
   const float most = MostQuanta(count);
   const float largest = factors.cwiseAbs().maxCoeff();
-  if (!(largest / most > std::numeric_limits<float>::min())) return 0.0F;  // all are nought
-  std::vector<int16_t> rounded(2 * pairs->size());  // the last pair may be half of one
+  if (!(largest / most > std::numeric_limits<float>::min())) return 0.0F;  // all zero
+  std::vector<int16_t> rounded(2 * pairs->size());  // the last pair may be incomplete
   RoundNumbers(factors.data(), most / largest, count, rounded.data());
   for (size_t pair = 0; pair < pairs->size(); ++pair) {
     std::memcpy(&(*pairs)[pair][example], &rounded[2 * pair], sizeof((*pairs)[pair][example]));
@@ -51,7 +51,7 @@ QuantisedPerceptron::QuantisedPerceptron(const Perceptron& perceptron) {
 
 PerceptronPacker::PerceptronPacker(size_t weights)
     : lines_(std::make_shared<std::vector<WeightLine>>()) {
-  // By hand: one weight of so many more, of units that fill no line.
+  // By hand: estimated share of padding weights, one in this many.
   constexpr size_t kPadding = 64;
   lines_->reserve((weights + weights / kPadding) / sizeof(WeightLine));
   PreferLargePages(lines_->data(), lines_->capacity() * sizeof(WeightLine));  // before it has pages

@@ -5,10 +5,10 @@
 
 namespace ossa {
 
-/// numbers[i] * times to the nearest whole number; the products must be within int16_t.
+/// numbers[i] * times, rounded to integers; the products must be within int16_t.
 void RoundNumbers(const float* numbers, float times, size_t count, int16_t* rounded);
 
-/// How many lines of `in_a_line` outputs each a layer's outputs take.
+/// Number of lines for a layer's outputs, `in_a_line` each.
 inline size_t CountLines(Eigen::Index outputs, size_t in_a_line) {
   return (static_cast<size_t>(outputs) + in_a_line - 1) / in_a_line;
 }

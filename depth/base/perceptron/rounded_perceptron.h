@@ -6,9 +6,9 @@
 
 namespace ossa {
 
-/// A perceptron made ready to run often, an example at a time. Its weights and activations are
-/// rounded to some 12 bits, where QuantisedPerceptron, which needs half the memory, has weights
-/// that were learned to be bytes. The same bits on any processor.
+/// A perceptron prepared for repeated use, one example at a time. Weights and activations are
+/// quantised to about 12 bits. QuantisedPerceptron needs half the memory, but its weights must have
+/// been trained as bytes. The same bits on any processor.
 class RoundedPerceptron {
  public:
   RoundedPerceptron() = default;
@@ -16,12 +16,12 @@ class RoundedPerceptron {
   explicit RoundedPerceptron(const Perceptron& perceptron);
 
   bool empty() const { return layers_.empty(); }
-  /// As Perceptron::Run, but for rounding.
+  /// As Perceptron::Run, except for rounding.
   RowMatrix Run(const Eigen::Ref<const RowMatrix>& inputs) const;
 
  private:
-  Perceptron normaliser_;                     // has no layers
-  std::vector<QuantisedConvolution> layers_;  // of maps of one cell
+  Perceptron normaliser_;                     // normalisation only, without layers
+  std::vector<QuantisedConvolution> layers_;  // as convolutions of maps of one cell
 };
 
 }  // namespace ossa

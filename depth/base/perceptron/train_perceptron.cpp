@@ -14,7 +14,7 @@
 namespace ossa {
 namespace {
 
-constexpr int64_t kWarmUp = 200;  // steps until the rate is at its highest; by hand
+constexpr int64_t kWarmUp = 200;  // steps until the learning rate is at its maximum; by hand
 
 RowMatrix ChooseRows(const RowMatrix& all, std::span<const Eigen::Index> chosen) {
   RowMatrix rows(static_cast<Eigen::Index>(chosen.size()), all.cols());
@@ -24,15 +24,15 @@ RowMatrix ChooseRows(const RowMatrix& all, std::span<const Eigen::Index> chosen)
   return rows;
 }
 
-// Rises at first, then falls to nothing along half a cosine (Loshchilov and Hutter 2017).
+// Linear warm-up, then cosine decay to zero (Loshchilov and Hutter 2017).
 float ComputeRate(double highest, int64_t step, int64_t steps) {
   const double done = static_cast<double>(step) / static_cast<double>(steps);
   const double warm = std::min(1.0, static_cast<double>(step + 1) / static_cast<double>(kWarmUp));
   return static_cast<float>(highest * warm * 0.5 * (1.0 + std::cos(std::numbers::pi * done)));
 }
 
-// Fits the normalisation, and normalises the inputs in place: row by row, for they may fill much of
-// the memory.
+// Fits the normalisation, and normalises the inputs in place, row by row, because they may fill
+// much of the memory.
 void NormaliseInputs(RowMatrix* input, const PerceptronTraining& training, Perceptron* perceptron) {
   const auto count = static_cast<double>(input->rows());
   Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(input->cols()), square = mean;

@@ -1,9 +1,8 @@
-// Sums of whole numbers are the same in any order: what runs on eight units side by side says, bit
-// for bit, what one by one says.
+// Integer sums do not depend on order: the vectorised code gives the same bits as the scalar one.
 //
-// Weights come from afar, and memory is the slowest here. Read one line after the other, those of
-// inputs of nought too, they come three times as fast as with lines left out: then the processor
-// sees no stream that it could fetch ahead, and fetching them ahead by hand makes up for nothing.
+// Performance is limited by memory bandwidth. Reading all lines sequentially, including those of
+// zero inputs, is three times as fast as skipping lines: the hardware prefetcher recognises a
+// sequential stream, and software prefetching does not make up for it.
 #include "depth/base/perceptron/weight_sums_internal.h"
 
 #include <algorithm>
@@ -19,11 +18,11 @@ namespace ossa {
 namespace {
 
 #if defined(__x86_64__)
-// Registers hold the sums of a block's units while all pairs go by. Weights are widened once for
-// all columns.
+// The sums of a block of units stay in registers over all pairs. Weights are widened once for all
+// examples.
 template <size_t kExamples>
 __attribute__((target("avx2"))) void EightByEight(const WeightSums<kExamples>& of) {
-  constexpr size_t kLanes = 8;  // of an AVX2 register
+  constexpr size_t kLanes = 8;  // 32-bit lanes of an AVX2 register
   constexpr size_t kGroups = WeightLine::kUnits / kLanes;
   const WeightLine* line = of.lines;
   for (size_t block = 0; block < of.blocks; ++block) {

@@ -8,24 +8,24 @@
 
 namespace ossa {
 
-/// What the weights of a pair of inputs are taken times, in each example.
+/// The factors of a pair of inputs, for each example.
 template <size_t kExamples>
 using PairFactors = std::array<std::array<int16_t, 2>, kExamples>;
 
-/// A layer's sums of weights times factors, of each example one a unit.
+/// Computes a layer's sums of weights times factors, one per unit and example.
 template <size_t kExamples>
 struct WeightSums {
   std::span<const PairFactors<kExamples>> factors;  // of all pairs
-  const WeightLine* lines = nullptr;       // of all pairs for the first units, then the next
-  size_t blocks = 0;                       // of units
-  std::array<int32_t*, kExamples> sums{};  // WeightLine::kUnits a block
+  const WeightLine* lines = nullptr;                // all pairs for the first units, then the next
+  size_t blocks = 0;                                // of units
+  std::array<int32_t*, kExamples> sums{};           // WeightLine::kUnits per block
 };
 
-/// Of one example or two. Precondition: no sum reaches 2^31, in whatever order its terms are added.
+/// For one or two examples. Precondition: no partial sum reaches 2^31, in any order.
 template <size_t kExamples>
 void AddWeights(const WeightSums<kExamples>& of);
 
-/// The same, one unit after the other.
+/// Scalar reference implementation.
 template <size_t kExamples>
 void AddWeightsOneByOne(const WeightSums<kExamples>& of);
 

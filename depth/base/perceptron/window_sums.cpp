@@ -1,5 +1,4 @@
-// Sums of whole numbers are the same in any order: what runs on many outputs side by side says,
-// bit for bit, what one by one says.
+// Integer sums do not depend on order: the vectorised code gives the same bits as the scalar one.
 #include "depth/base/perceptron/window_sums_internal.h"
 
 #include <algorithm>
@@ -15,8 +14,8 @@ namespace ossa {
 namespace {
 
 #if defined(__x86_64__)
-// Some windows at a time: registers hold their sums while all pairs go by, and a line is fetched
-// once for them.
+// Several windows at a time: their sums stay in registers over all pairs, and each weight line is
+// loaded once.
 template <size_t kWindows>
 __attribute__((target("avx2"))) void SumSome(const Windows& windows, size_t first,
                                              const OutputLine* line, int32_t* sums, size_t stride) {
@@ -48,7 +47,7 @@ __attribute__((target("avx2"))) void SumSome(const Windows& windows, size_t firs
 }
 
 void SumSideBySide(const Windows& windows, const OutputLine* lines, int32_t* sums, size_t stride) {
-  constexpr size_t kAtOnce = 6;  // with two groups each: as many sums as AVX2 has registers for
+  constexpr size_t kAtOnce = 6;  // with two registers each: uses all AVX2 registers for sums
   const size_t count = windows.first.size();
   size_t w = 0;
   for (; w + kAtOnce <= count; w += kAtOnce) SumSome<kAtOnce>(windows, w, lines, sums, stride);
@@ -56,7 +55,7 @@ void SumSideBySide(const Windows& windows, const OutputLine* lines, int32_t* sum
   if (w < count) SumSome<1>(windows, w, lines, sums, stride);
 }
 
-// The same with AVX-512: a line is one register, and one instruction multiplies it and adds.
+// The AVX-512 version: a line is one register, and one instruction multiplies and accumulates.
 template <size_t kWindows>
 __attribute__((target("avx512f,avx512vnni"))) void SumSomeVnni(const Windows& windows, size_t first,
                                                                const OutputLine* line,

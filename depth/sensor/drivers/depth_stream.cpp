@@ -40,7 +40,8 @@ OniStatus DepthStream::getProperty(int id, void* data, int* size) {
       return AnswerProperty(mode_.resolutionX * 2, data, size);
     case ONI_STREAM_PROPERTY_MIRRORING:
       return AnswerProperty(OniBool{mirrored_ ? TRUE : FALSE}, data, size);
-    case ONI_STREAM_PROPERTY_CROPPING:  // without an answer, recordings play back no frame
+    case ONI_STREAM_PROPERTY_CROPPING:  // recordings made from a stream without it play back no
+                                        // frame
       return AnswerProperty(OniCropping{FALSE, 0, 0, 0, 0}, data, size);
     case kCameraProperty:
       return AnswerProperty(

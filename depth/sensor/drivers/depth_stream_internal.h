@@ -1,5 +1,5 @@
 #pragma once
-// What the depth streams of our drivers share: properties, mirroring, and handing a frame over.
+// Common part of our drivers' depth streams: properties, mirroring, and delivery of frames.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace ossa::depth {
 
-/// The mode of every second pixel of every second row.
+/// The mode at half the resolution in both directions.
 OniVideoMode HalveMode(OniVideoMode mode);
 
 class DepthStream : public oni::driver::StreamBase {
  public:
-  /// `max_value`: strictly above every depth the stream gives (OpenNI2's recorder relies on it).
-  /// Streams that offer half the size do so until they deliver.
+  /// `max_value`: greater than every depth of the stream (OpenNI2's recorder relies on it). If
+  /// `offers_half` is set, the size can be chosen until the first frame.
   DepthStream(const Camera& camera, int fps, int max_value, bool mirrored,
               bool offers_half = false);
 
@@ -26,23 +26,23 @@ class DepthStream : public oni::driver::StreamBase {
   int getRequiredFrameSize() override;
 
  protected:
-  /// Copies an image, which must be of the camera's size, out to whoever listens, in the size that
-  /// they chose; called on the driver's thread.
+  /// Delivers an image of the camera's size to all listeners, at the size they chose; called on the
+  /// driver's thread.
   void Deliver(const uint16_t* depth_mm, int frame_index, uint64_t timestamp_us);
 
-  /// That the images are of now, of the constructor's size.
+  /// The camera of the current images, of the constructor's size.
   virtual Camera CurrentCamera() const { return camera_; }
 
  private:
   OniStatus SetVideoMode(const OniVideoMode& mode);
 
-  Camera camera_;  // whole
+  Camera camera_;  // full size
   OniVideoMode mode_{};
   bool offers_half_;
-  int step_ = 1;  // every so many pixels of a row, and rows, are delivered
+  int step_ = 1;  // subsampling step of rows and columns
   int max_value_;
   std::atomic<bool> mirrored_;
-  std::atomic<bool> delivered_ = false;  // the size stays
+  std::atomic<bool> delivered_ = false;  // the size is fixed
 };
 
 }  // namespace ossa::depth

@@ -1,5 +1,5 @@
 #pragma once
-// OpenNI2's driver interface. It wants two macros of OpenNI2's private base library.
+// OpenNI2's driver interface, which needs two macros of OpenNI2's private base library.
 #include <new>
 #define XN_NEW(type, ...) new (std::nothrow) type(__VA_ARGS__)
 #define XN_DELETE(pointer) delete (pointer)
@@ -10,7 +10,7 @@
 
 namespace ossa::depth {
 
-/// Answers a property of a fixed type, as OpenNI2 asks for it.
+/// Answers a property query of a fixed type.
 template <typename T>
 OniStatus AnswerProperty(const T& value, void* data, int* size) {
   if (*size < static_cast<int>(sizeof(T))) return ONI_STATUS_BAD_PARAMETER;

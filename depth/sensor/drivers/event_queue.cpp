@@ -23,8 +23,8 @@ void EventQueue::At(Clock::time_point when, std::function<void()> event) {
 }
 
 void EventQueue::Run() {
-  // A shutdown that closes the gate may be that of another user of OpenNI2, after which it is open
-  // again: what was held up is tried anew.
+  // The gate may have been closed by a shutdown of another OpenNI2 user and open again later: retry
+  // delayed events.
   constexpr std::chrono::milliseconds kAgainAfter{5};
   std::unique_lock lock(mutex_);
   while (!stopping_) {
@@ -42,7 +42,7 @@ void EventQueue::Run() {
     const bool announced = AnnounceUnlessShuttingDown(event);
     lock.lock();
     if (announced) {
-      due_.erase(first);  // iterators of a map survive what was added meanwhile
+      due_.erase(first);  // map iterators stay valid when elements are added
     } else {
       wake_.wait_for(lock, kAgainAfter);
     }

@@ -8,18 +8,18 @@
 
 namespace ossa::depth {
 
-/// Tells OpenNI2 of devices that come and go, on a thread of its own: OpenNI2 takes its locks for
-/// that, which neither a stream's thread (joined under them) nor libfreenect's may wait for.
+/// Notifies OpenNI2 of connected and disconnected devices, on its own thread: OpenNI2 takes locks
+/// for that, which neither a stream's thread (joined under them) nor libfreenect's may wait for.
 class EventQueue {
  public:
   using Clock = std::chrono::steady_clock;
 
   EventQueue();
-  ~EventQueue();  // events not yet due are dropped
+  ~EventQueue();  // pending events are dropped
   EventQueue(const EventQueue&) = delete;
   EventQueue& operator=(const EventQueue&) = delete;
 
-  /// Events run at their times, those of one time in the order they came.
+  /// Schedules an event. Events with equal times run in order of their calls.
   void At(Clock::time_point when, std::function<void()> event);
   void Now(std::function<void()> event) { At(Clock::now(), std::move(event)); }
 

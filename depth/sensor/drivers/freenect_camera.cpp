@@ -11,7 +11,7 @@ namespace {
 // Constants: of the Kinect v1 (libfreenect), the rest by hand.
 
 constexpr size_t kPixels = 640 * 480;
-constexpr double kTicksPerMicrosecond = 60.0;  // the Kinect's clock, 32 bits of it
+constexpr double kTicksPerMicrosecond = 60.0;  // the Kinect's 32-bit clock
 constexpr double kPeriod_us = 1e6 / 30.0;
 
 freenect_depth_format FormatOf(KinectDepthMode mode) {
@@ -26,8 +26,8 @@ freenect_depth_format FormatOf(KinectDepthMode mode) {
   return FREENECT_DEPTH_11BIT;
 }
 
-// Debian's fakenect refuses by assertion to look up any mode but its one, and then plays its files
-// whatever mode is set: a mode of our own making serves both it and a real Kinect.
+// Debian's fakenect asserts when asked for any mode but one, and then plays its files in any mode:
+// a hand-made mode works for it and for a real Kinect.
 freenect_frame_mode ModeOf(KinectDepthMode mode) {
   const freenect_depth_format format = FormatOf(mode);
   for (int i = 0; i < freenect_get_depth_mode_count(); ++i) {
@@ -106,7 +106,7 @@ void FreenectCamera::OnDepth(freenect_device* device, void* depth, uint32_t tick
   camera->TakeDepth(static_cast<const uint16_t*>(depth), ticks);
 }
 
-// On the thread that runs libfreenect: copies and leaves.
+// Runs on libfreenect's thread: only copies.
 void FreenectCamera::TakeDepth(const uint16_t* depth, uint32_t ticks) {
   static const std::array<uint16_t, 2048> average = AverageKinectDepthTable();
   {
@@ -118,11 +118,11 @@ void FreenectCamera::TakeDepth(const uint16_t* depth, uint32_t ticks) {
     } else {
       std::copy(depth, depth + kPixels, newest_.depth_mm.begin());
     }
-    // The clock wraps every 72 s; unsigned differences do not mind. USB packets get lost, and
-    // frames with them: time tells how many.
+    // The clock wraps every 72 s; unsigned differences handle that. USB packets, and frames with
+    // them, may be lost: the time shows how many.
     const double passed_us = (ticks - last_ticks_) / kTicksPerMicrosecond;
     const int frames = std::max(1, static_cast<int>(std::lround(passed_us / kPeriod_us)));
-    constexpr int kRestart = 300;  // ten seconds: the clock, or a dump, began anew
+    constexpr int kRestart = 300;  // ten seconds: the clock or a dump has restarted
     const bool steady = clock_known_ && frames < kRestart;
     newest_.index += steady ? frames : 1;
     newest_.timestamp_us += static_cast<uint64_t>(steady ? passed_us : kPeriod_us);

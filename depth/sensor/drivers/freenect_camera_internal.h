@@ -1,5 +1,5 @@
 #pragma once
-// libfreenect behind a lock and a thread of its own, for the OpenNI2 driver around it.
+// Wraps libfreenect with a lock and a thread, for the OpenNI2 driver.
 #include <libfreenect.h>
 
 #include <condition_variable>
@@ -12,21 +12,21 @@
 
 namespace ossa::depth {
 
-/// What libfreenect's depth modes are called here.
+/// libfreenect's depth modes.
 enum class KinectDepthMode {
   kRegistered,   // millimetres, aligned with the colour camera
-  kMillimetres,  // millimetres as the depth camera sees
-  kRaw,          // raw depths, turned to millimetres by an average Kinect's calibration: for dumps
+  kMillimetres,  // millimetres in the depth camera's view
+  kRaw,          // raw depths, converted with an average calibration: for dumps
 };
 
-/// One frame, as the Kinect's USB thread leaves it for a stream to fetch.
+/// A frame handed from the Kinect's USB thread to a stream.
 struct KinectFrame {
   std::vector<uint16_t> depth_mm;
   uint64_t timestamp_us = 0;
   int index = 0;
 };
 
-/// A Kinect v1 that is open. All members may be called from any thread.
+/// An open Kinect v1. Thread-safe.
 class FreenectCamera {
  public:
   FreenectCamera(freenect_context* context, std::recursive_mutex& library, int index,
@@ -41,12 +41,12 @@ class FreenectCamera {
   bool Start();
   void Stop();
 
-  /// Waits for a frame newer than the last fetched; false when stopped. Older ones are lost: the
-  /// index tells how many.
+  /// Waits for a frame newer than the last fetched; false when stopped. Frames in between are lost;
+  /// the index shows how many.
   bool Fetch(KinectFrame* frame);
 
-  /// The tilt motor, degrees above the horizon; the accelerometer, m/s²: x to the Kinect's right,
-  /// y up, z forward.
+  /// The tilt motor, degrees above the horizon; the accelerometer, m/s²: x to the Kinect's right, y
+  /// up, z forward.
   bool GetTilt_deg(double* tilt_deg);
   bool SetTilt_deg(double tilt_deg);
   bool GetAcceleration(double* xyz_mps2);
@@ -55,12 +55,12 @@ class FreenectCamera {
   static void OnDepth(freenect_device* device, void* depth, uint32_t ticks);
   void TakeDepth(const uint16_t* depth, uint32_t ticks);
 
-  std::recursive_mutex& library_;  // libfreenect is not for several threads at once
+  std::recursive_mutex& library_;  // libfreenect is not thread-safe
   freenect_device* device_ = nullptr;
   KinectDepthMode mode_;
   bool running_ = false;
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable wake_;
   KinectFrame newest_;
   bool fresh_ = false;

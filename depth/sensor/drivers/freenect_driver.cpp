@@ -19,18 +19,18 @@
 namespace ossa::depth {
 namespace {
 
-constexpr int kMaxValue = 10001;  // libfreenect gives no depth beyond 10 m
+constexpr int kMaxValue = 10001;  // libfreenect's depths end at 10 m
 
-// As the depth camera sees: libfreenect's zero plane (1200 mm) over twice the width of a pixel on
-// it (1.042 mm). As the colour camera does: the registration that libfreenect has for a Kinect that
-// tells none (src/registration.c) scales that image by 0.926 and moves its middle.
+// The depth camera: libfreenect's zero plane (1200 mm) over twice the width of a pixel on it (1.042
+// mm). The registered view: libfreenect's registration for a Kinect without its own
+// (src/registration.c) scales that image by 0.926 and shifts its centre.
 Camera KinectCamera(KinectDepthMode mode) {
   if (mode == KinectDepthMode::kRegistered) return {640, 480, 533.0, 533.0, 304.0, 253.0};
   return {640, 480, 575.8, 575.8, 320.0, 240.0};
 }
 
-// OSSA_FREENECT_DEPTH = mm (default), registered or raw. Of a registered image nothing here has the
-// colours, and it has holes that the models were not trained on.
+// OSSA_FREENECT_DEPTH = mm (default), registered or raw. Registration is not needed here, as
+// colours are not used, and leaves holes that the models were not trained on.
 KinectDepthMode ModeFromEnvironment() {
   const char* chosen = std::getenv("OSSA_FREENECT_DEPTH");
   const std::string name = chosen != nullptr ? chosen : "mm";
@@ -46,7 +46,7 @@ class KinectStream final : public DepthStream {
 
   OniStatus start() override {
     if (!camera_.Start()) return ONI_STATUS_ERROR;
-    // A thread of its own: OpenNI2's locks are never taken under libfreenect's.
+    // On its own thread: OpenNI2's locks must not be taken under libfreenect's.
     thread_ = std::thread([this] {
       for (KinectFrame frame; camera_.Fetch(&frame);) {
         Deliver(frame.depth_mm.data(), frame.index, frame.timestamp_us);
@@ -147,8 +147,8 @@ class KinectDevice final : public oni::driver::DeviceBase {
   OniSensorInfo sensor_{};
 };
 
-// Serial numbers in libfreenect's order; their indices where it knows none. Debian's fakenect lacks
-// the listing functions, so that they are looked up instead of linked.
+// Serial numbers in libfreenect's order; indices if it knows none. Debian's fakenect lacks the
+// listing functions, so they are looked up at run time instead of linked.
 std::vector<std::string> SerialNumbers(freenect_context* context) {
   using List = int (*)(freenect_context*, freenect_device_attributes**);
   using Free = void (*)(freenect_device_attributes*);
@@ -233,12 +233,12 @@ class FreenectDriver final : public oni::driver::DriverBase {
     return info;
   }
 
-  // The one thread that runs libfreenect: USB traffic while a Kinect is open, and once a second a
-  // look at which are plugged in.
+  // The only thread that runs libfreenect: handles USB traffic while a Kinect is open, and lists
+  // devices once a second.
   void Run() {
     using Clock = std::chrono::steady_clock;
-    // Soon when none is known, to be back within a second of a replug; each look asks the Kinects
-    // for their serial numbers, so seldom while they stream.
+    // Frequently while no device is known, to reconnect within a second. Listing queries all
+    // Kinects for their serial numbers, so rarely while they stream.
     constexpr std::chrono::milliseconds kLookEvery{1000};
     constexpr std::chrono::milliseconds kLookWhenNone{250};
     auto last_look = Clock::now();
@@ -251,7 +251,7 @@ class FreenectDriver final : public oni::driver::DriverBase {
       } else {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
       }
-      // A lock taken again at once would starve whoever waits to open, start or tilt.
+      // Releasing the lock only briefly would starve threads that wait to open, start or tilt.
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (lost) LoseDevices();
       if (Clock::now() - last_look < (known_.empty() ? kLookWhenNone : kLookEvery)) continue;
@@ -260,8 +260,8 @@ class FreenectDriver final : public oni::driver::DriverBase {
     }
   }
 
-  // libfreenect says that some Kinect died but not which: all are lost, and those that are still
-  // there are found again at the next look. The end of fakenect's dump is such a death, too.
+  // libfreenect reports that a Kinect was lost, but not which: all are dropped, and present ones
+  // are found again by the next listing. The end of fakenect's dump is reported in the same way.
   void LoseDevices() {
     for (const std::string& serial : std::exchange(known_, {})) AnnounceLost(serial);
   }

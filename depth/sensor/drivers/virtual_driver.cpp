@@ -1,5 +1,5 @@
-// libossa_virtual.so.0: an OpenNI2 driver module that plays any recording of ours as a live depth
-// camera, so that everything behind a camera runs without one, in ossa and in any OpenNI2 program.
+// libossa_virtual.so.0: an OpenNI2 driver module that plays a recording as a live depth camera, for
+// testing without hardware, in ossa and in any OpenNI2 program.
 #include <algorithm>
 #include <array>
 #include <condition_variable>
@@ -23,10 +23,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-// The depths of recordings are below it, or OniRecorder refuses; OpenNI2's bound
+// Above all depths that OniRecorder accepts; OpenNI2's bound
 constexpr int kMaxValue = 65535;
 
-// A camera outlives its opening: what it plays goes on while it is unplugged.
+// Exists independently of open devices: playback continues while the camera is unplugged.
 class VirtualCamera {
  public:
   VirtualCamera(const std::string& uri, const VirtualDeviceOptions& options)
@@ -38,17 +38,17 @@ class VirtualCamera {
 
   const OniDeviceInfo& info() const { return info_; }
   const VirtualDeviceOptions& options() const { return options_; }
-  const Camera& camera() const { return camera_; }  // its streams', whatever is played later
+  const Camera& camera() const { return camera_; }  // of its streams, whatever is played later
   int fps() const { return std::max(1, static_cast<int>(options_.fps.value_or(30.0))); }
 
   struct Frame {
     DepthFrame image;
     int index = 0;
-    Seconds due{0};  // since the camera began to play
+    Seconds due{0};  // since playback started
   };
 
-  // The next frame, or none at the end. A frame that cannot be read or is of another size than the
-  // streams is passed over: its number is missing, as with a camera.
+  // The next frame, or none at the end. Unreadable frames and frames of another size than the
+  // streams are dropped: their index is missing, as with a camera.
   std::optional<Frame> Next() {
     for (bool restarted = false;;) {
       try {
@@ -67,13 +67,13 @@ class VirtualCamera {
       } catch (const InputError&) {
         ++index_;
         if (!std::exchange(failed_, true)) continue;
-        return std::nullopt;  // two in a row: the rest is no better
+        return std::nullopt;  // two failures in a row
       }
     }
   }
 
-  // When the first frame is due; the clock runs on from the first start. Not at once: OpenNI2
-  // throws away what comes before start() has returned.
+  // Due time of the first frame; the clock starts at the first call. Not immediately: OpenNI2
+  // discards frames that arrive before start() has returned.
   Clock::time_point Began() {
     constexpr std::chrono::milliseconds kStartUp{40};
     if (!began_) began_ = Clock::now() + kStartUp;
@@ -112,20 +112,20 @@ class VirtualCamera {
   std::optional<Clock::time_point> began_;
   int index_ = 0;
   bool failed_ = false;
-  // Of what is played: a ROS bag's may be half a century.
+  // First time stamp of the recording; in a ROS bag it may count from 1970.
   std::optional<double> first_time_s_;
   Seconds loop_began_{0};
   Seconds next_due_{0};
 };
 
-// What a stream tells its driver.
+// Callbacks from streams to the driver.
 class UnplugHandler {
  public:
   virtual ~UnplugHandler() = default;
   virtual void Unplug(VirtualCamera& camera, bool comes_back) = 0;
 };
 
-// Half of it has whole pixels.
+// Whether the size can be halved.
 bool IsEven(const Camera& camera) { return camera.width % 2 == 0 && camera.height % 2 == 0; }
 
 class VirtualStream final : public DepthStream {
@@ -162,9 +162,9 @@ class VirtualStream final : public DepthStream {
   void Play() {
     const Clock::time_point began = camera_.Began();
     const auto& options = camera_.options();
-    // A frame late by more than this is lost, as with a camera: after a replug, or on a machine
-    // that stood still. But one a second comes through: a machine too slow to catch up by decoding
-    // would get none.
+    // Frames later than this are dropped, as with a camera: after a replug, or if the machine
+    // stalled. One per second is still delivered: otherwise a machine too slow to decode would get
+    // none.
     constexpr std::chrono::seconds kLongestSilence{1};
     auto silent_since = Clock::now();
     const Seconds lateness{2.0 / camera_.fps() / options.speed};
@@ -235,7 +235,7 @@ class VirtualDevice final : public oni::driver::DeviceBase {
   OniSensorInfo sensor_{};
 };
 
-// The same of an absolute path; a relative one is of the shell's folder.
+// Makes the path absolute, relative to the shell's folder.
 std::string AbsoluteUri(const std::string& uri) {
   const size_t scheme = std::strlen(kVirtualScheme);
   const char* folder = std::getenv("PWD");
@@ -249,9 +249,9 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
  public:
   explicit VirtualDriver(OniDriverServices* services) : DriverBase(services) {}
 
-  // OSSA_VIRTUAL_DEVICE=ossa://PATH is plugged in from the start: "any device" finds it. The
-  // working folder is OpenNI2's by now, which changes into its drivers': where the program was
-  // started the shell has noted.
+  // OSSA_VIRTUAL_DEVICE=ossa://PATH is connected from the start, so "any device" finds it. OpenNI2
+  // has changed the working directory to its drivers' by now; the shell's PWD still has the
+  // original one.
   OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
                        oni::driver::DeviceDisconnectedCallback disconnected,
                        oni::driver::DeviceStateChangedCallback changed, void* cookie) override {
@@ -272,7 +272,7 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
       }
       const VirtualCamera* camera = PluggedCamera(uri);
       if (camera == nullptr) return ONI_STATUS_ERROR;
-      deviceConnected(&camera->info());  // not under our lock: OpenNI2 takes its own
+      deviceConnected(&camera->info());  // without our lock: OpenNI2 takes its own
       return ONI_STATUS_OK;
     } catch (const std::exception& error) {
       getServices().errorLoggerAppend("%s", error.what());
@@ -311,7 +311,7 @@ class VirtualDriver final : public oni::driver::DriverBase, public UnplugHandler
   }
 
  private:
-  // Made at its first mention; none while it is unplugged.
+  // Created at first use; none while it is unplugged.
   const VirtualCamera* PluggedCamera(const char* uri) {
     const std::lock_guard lock(mutex_);
     std::unique_ptr<VirtualCamera>& camera = cameras_[uri];

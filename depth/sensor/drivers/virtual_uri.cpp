@@ -36,7 +36,7 @@ std::string Decoded(const std::string& text, const std::string& uri) {
   return decoded;
 }
 
-// Numbers in [least, most].
+// Parses a number in [least, most].
 double Number(const std::string& uri, const std::string& key, const std::string& value,
               double least, double most) {
   double number = 0.0;

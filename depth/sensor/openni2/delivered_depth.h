@@ -5,18 +5,18 @@
 
 namespace ossa::depth {
 
-/// A depth frame as OpenNI2 delivers it, by either of its interfaces.
+/// A depth frame as delivered by either of OpenNI2's interfaces.
 struct DeliveredDepth {
   const void* data = nullptr;  // uint16, row by row
   int width = 0, height = 0;   // pixels
   int stride = 0;              // bytes from one row to the next
   int size = 0;                // bytes
-  bool tenths = false;         // of a millimetre
+  bool tenths = false;         // unit: tenths of a millimetre
   bool mirrored = false;
 };
 
-/// Row-major height × width: tenths are rounded, mirrored rows turned back. Throws InputError where
-/// there are fewer bytes than pixels.
+/// Millimetres, row-major height × width: tenths are rounded, mirrored rows reversed. Throws
+/// InputError if there are fewer bytes than pixels.
 std::vector<uint16_t> MillimetresOf(const DeliveredDepth& frame);
 
 }  // namespace ossa::depth

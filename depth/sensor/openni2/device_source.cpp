@@ -28,12 +28,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// How long one wait inside OpenNI2 lasts: a stream of an unplugged device just times out, so that
-// the unplugged flag must be looked at between short waits.
+// Length of one wait inside OpenNI2: a stream of an unplugged device only times out, so the flag
+// must be polled between short waits.
 constexpr milliseconds kSlice{100};
 
-// Sets a flag when the device goes; called on a driver's thread, where nothing else is allowed, for
-// any device of the process: another camera may be unplugged while this one is looked for.
+// Sets a flag when the device is unplugged. Called on a driver's thread, where nothing else is
+// allowed, for any device of the process, including other cameras.
 class UnplugFlag final : public openni::OpenNI::DeviceDisconnectedListener {
  public:
   UnplugFlag() { openni::OpenNI::addDeviceDisconnectedListener(this); }
@@ -56,7 +56,7 @@ class UnplugFlag final : public openni::OpenNI::DeviceDisconnectedListener {
   std::atomic<bool> set_ = false;
 };
 
-// Our own drivers know the exact camera, others at least the field of view.
+// Our drivers provide the exact camera, others at least the field of view.
 Camera ReadCamera(const openni::VideoStream& stream, int width, int height) {
   std::array<double, 6> exact{};
   int size = sizeof(exact);
@@ -69,7 +69,7 @@ Camera ReadCamera(const openni::VideoStream& stream, int width, int height) {
                                stream.getVerticalFieldOfView());
 }
 
-// OpenNI2 crashes on what is not ASCII; our own scheme has %XX for it.
+// OpenNI2 crashes on non-ASCII characters; our own scheme escapes them as %XX.
 std::string AsciiUri(const std::string& uri) {
   std::string ascii;
   for (const char c : uri) {
@@ -87,8 +87,8 @@ std::string AsciiUri(const std::string& uri) {
   return ascii;
 }
 
-// OpenNI2 itself keeps but the newest frame of a stream, so that a slow reader loses old frames and
-// never falls behind; the frame numbers tell how many. Used on one thread alone, a lasting one.
+// OpenNI2 keeps only the newest frame of a stream, so a slow reader loses old frames and never
+// falls behind; frame numbers show how many. Must be used on one thread only, a lasting one.
 class Device {
  public:
   Device(std::string uri, const SourceOptions& options)
@@ -105,7 +105,7 @@ class Device {
       int ready = -1;
       const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
       const milliseconds slice = std::clamp(left, milliseconds{0}, kSlice);
-      // A frame that is there is given even when the device has just gone.
+      // A pending frame is delivered even if the device has just been unplugged.
       if (openni::OpenNI::waitForAnyStream(&streams, 1, &ready, static_cast<int>(slice.count())) ==
           openni::STATUS_OK) {
         return TakeFrame();
@@ -120,7 +120,7 @@ class Device {
   }
   const Camera& camera() const { return camera_; }
 
-  // Throws what TryOpen failed of.
+  // Throws the error of TryOpen.
   [[noreturn]] void FailToOpen() const {
     const std::string name = "openni:" + wanted_uri_;
     if (wanted_uri_.empty() && ListDevices().empty()) {
@@ -156,7 +156,7 @@ class Device {
   }
 
   bool StartStream() {
-    stream_.setMirroringEnabled(false);  // drivers mirror by default; those that cannot, say so
+    stream_.setMirroringEnabled(false);  // most drivers mirror by default; some cannot
     mirrored_ = stream_.getMirroringEnabled();
     const openni::VideoMode mode = stream_.getVideoMode();
     const int width = mode.getResolutionX();
@@ -178,7 +178,7 @@ class Device {
 
   ReadResult Reopen(Clock::time_point deadline) {
     do {
-      if (TryOpen()) return Result(ReadStatus::kTimeout);  // plugged in again: frames will come
+      if (TryOpen()) return Result(ReadStatus::kTimeout);  // reconnected: frames will follow
       std::this_thread::sleep_for(std::min<Clock::duration>(
           kSlice, std::max<Clock::duration>(deadline - Clock::now(), milliseconds{1})));
     } while (Clock::now() < deadline);
@@ -215,25 +215,25 @@ class Device {
     return result;
   }
 
-  // After a replug the device's clock and numbers may begin anew: time goes on by our own clock,
-  // and the frames of the gap count as dropped.
+  // After a reconnection the device's clock and frame numbers may restart: times continue by our
+  // clock, and frames of the gap count as dropped.
   int64_t CountGap(double sensor_s) {
     const double gap_s = std::chrono::duration<double>(Clock::now() - last_frame_at_).count();
     time_offset_s_ = last_time_s_ + gap_s - sensor_s;
     return std::max<int64_t>(std::llround(gap_s / period_s_) - 1, 0);
   }
 
-  OpenNiSession session_;  // first: ends last
+  OpenNiSession session_;  // first member: destroyed last
   UnplugFlag unplugged_;
   std::string wanted_uri_;
   std::string ascii_uri_;
-  FirstCamera first_;  // where no URI is wanted
+  FirstCamera first_;  // if no URI was given
   SourceOptions options_;
   openni::Device device_;
   openni::VideoStream stream_;
   std::string error_ = "no reason given";
-  Camera whole_;   // of the whole image, of which frames may show a part
-  Camera camera_;  // of the part
+  Camera whole_;   // of the full image, of which frames may be a part
+  Camera camera_;  // of the frames
   bool open_ = false;
   bool mirrored_ = false;
   bool after_gap_ = true;
@@ -247,9 +247,9 @@ class Device {
 
 class DeviceSource;
 
-// Those that are open. The program's end destroys what drivers have before it destroys objects that
-// are older than the drivers, a static one that holds a source for instance: closing that would
-// then crash. So they are closed when the end begins.
+// The open sources. At program exit, drivers are destroyed before objects older than them, for
+// instance a static one that holds a source; closing that source later would crash. Hence all
+// sources are closed when exit begins.
 class OpenDevices {
  public:
   static OpenDevices& Instance() {
@@ -263,10 +263,10 @@ class OpenDevices {
   static void EndAll();
 
   std::mutex mutex_;
-  std::map<DeviceSource*, pid_t> sources_;  // and the process that opened them: a child has no part
+  std::map<DeviceSource*, pid_t> sources_;  // with the process that opened them: not a child's
 };
 
-// A device, whichever of the program's threads asks for its frames.
+// A device that may be read from any thread of the program.
 class DeviceSource final : public FrameSource {
  public:
   DeviceSource(const std::string& uri, const SourceOptions& options) {
@@ -290,7 +290,7 @@ class DeviceSource final : public FrameSource {
   ReadResult Read(milliseconds timeout) override {
     ReadResult read{.status = ReadStatus::kDisconnected, .frame = {}};
     thread_->Run([&] {
-      if (device_) read = device_->Read(timeout);  // else the program ends
+      if (device_) read = device_->Read(timeout);  // else the program is exiting
     });
     return read;
   }
@@ -306,7 +306,8 @@ class DeviceSource final : public FrameSource {
   }
 
  private:
-  // Here, since keep_waiting may look at what its own thread alone is told, as Python's of Ctrl-C.
+  // On this thread, because keep_waiting may check state of the calling thread, as Python's does
+  // for Ctrl-C.
   void Wait(const SourceOptions& options) {
     const auto deadline = Clock::now() + options.device_wait;
     for (bool is_open = false;;) {
@@ -319,12 +320,12 @@ class DeviceSource final : public FrameSource {
   }
 
   BorrowedThread thread_;
-  std::unique_ptr<Device> device_;  // none when the program ends
+  std::unique_ptr<Device> device_;  // none during program exit
   Camera last_camera_;
 };
 
-// What ends first was begun last: asked for anew each time, since drivers that were unloaded and
-// are loaded again are younger than what was asked for before.
+// Exit handlers run in reverse order of registration: registered for each source, because reloaded
+// drivers are newer than earlier registrations.
 void OpenDevices::Add(DeviceSource* source) {
   const std::lock_guard lock(mutex_);
   if (sources_.empty()) std::atexit(&EndAll);

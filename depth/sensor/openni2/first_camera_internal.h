@@ -5,25 +5,25 @@
 
 namespace ossa::depth {
 
-/// A device that OpenNI2 knows of.
+/// A device listed by OpenNI2.
 struct ListedDevice {
   std::string uri;
-  std::string make;  // whose, what, and its USB numbers
+  std::string make;  // vendor, name and USB ids
 };
 
-/// All that are plugged in.
+/// All connected devices.
 std::vector<ListedDevice> ListDevices();
 
-/// The camera among those listed that "openni:" stands for: the first, and ever after that one. A
-/// USB camera that is plugged in again may have another URI: it is then one of its make that was
-/// not there when it went.
+/// Selects the camera for "openni:": the first one, and from then on always that one. A reconnected
+/// USB camera may have another URI: it is then one of the same make that was absent when it was
+/// lost.
 class FirstCamera {
  public:
-  /// Its URI; "" while it is not there.
+  /// Its URI; "" while it is not connected.
   std::string Find() const;
-  /// It was opened.
+  /// Records that it was opened.
   void Opened(const std::string& uri);
-  /// It was unplugged: whatever is there now is another.
+  /// Records that it was unplugged: all devices present now are others.
   void Gone();
   const std::string& uri() const { return own_.uri; }
 

@@ -10,13 +10,13 @@
 namespace ossa::depth {
 namespace {
 
-// Threads that nobody has borrowed.
+// Threads that are not in use.
 struct IdleThreads {
   std::mutex mutex;
   std::vector<LastingThread*> threads;
 
   static IdleThreads& Instance() {
-    static auto* instance = new IdleThreads;  // threads outlive what ends with the program
+    static auto* instance = new IdleThreads;  // threads outlive static objects
     return *instance;
   }
 };
@@ -29,14 +29,14 @@ LastingThread::LastingThread() : process_(getpid()) {
   thread.detach();
 }
 
-// Where nobody would do it: it is done by whoever asks, as if there were no such thread.
+// Whether the thread is unavailable (in a forked child): tasks then run on the caller's thread.
 bool LastingThread::IsElsewhere() const {
   return std::this_thread::get_id() != id_ && getpid() == process_;
 }
 
 void LastingThread::Run(const std::function<void()>& task) {
   if (!IsElsewhere()) return task();
-  // Shared: the thread is in it for a moment longer than the wait lasts.
+  // Shared, because the thread uses it slightly longer than the caller waits.
   const auto packaged = std::make_shared<std::packaged_task<void()>>(task);
   std::future<void> done = packaged->get_future();
   Post([packaged] { (*packaged)(); });
@@ -60,7 +60,7 @@ void LastingThread::Work() {
     tasks_.pop_front();
     lock.unlock();
     task();
-    task = nullptr;  // what goes with it may ask for more
+    task = nullptr;  // its destruction may post more tasks
     lock.lock();
   }
 }

@@ -9,20 +9,20 @@
 
 namespace ossa::depth {
 
-/// A thread that does what it is given, to the program's end. OpenNI2 keeps a list of all threads
-/// that ever called it and looks whether they are alive when a new one does; the C library of today
-/// crashes at that for one that has ended. So no thread of a program, which may end, calls OpenNI2.
+/// A worker thread that lives until the program ends. OpenNI2 keeps a list of all threads that ever
+/// called it and checks whether they are alive when a new one does; glibc crashes on that check for
+/// ended threads. So no thread of a program, which may end, calls OpenNI2.
 class LastingThread {
  public:
-  /// Never destroyed: `new`, and kept.
+  /// Must never be destroyed: allocate it with `new` and keep it.
   LastingThread();
   ~LastingThread() = delete;
   LastingThread(const LastingThread&) = delete;
   LastingThread& operator=(const LastingThread&) = delete;
 
-  /// Does it there and waits; throws what it throws.
+  /// Runs the task on the thread and waits; rethrows its exceptions.
   void Run(const std::function<void()>& task);
-  /// Does it there some time, after what was asked for before.
+  /// Runs the task asynchronously, after earlier ones.
   void Post(std::function<void()> task);
 
  private:
@@ -33,11 +33,11 @@ class LastingThread {
   std::condition_variable changed_;
   std::deque<std::function<void()>> tasks_;
   std::thread::id id_;
-  pid_t process_;  // a child by fork has the object and not the thread
+  pid_t process_;  // a forked child has the object but not the thread
 };
 
-/// One such thread for as long as this lives. Those that are given back serve others: there are as
-/// many as were ever needed at once.
+/// A lasting thread for exclusive use during this object's lifetime. Returned threads are reused:
+/// there are as many as were ever needed at once.
 class BorrowedThread {
  public:
   BorrowedThread();

@@ -27,7 +27,7 @@ class OniFileSource final : public FrameSource {
                "the OpenNI2 library"},
               options.player_patience) {
     OniPipeHello hello;
-    OniPipeMessage message;  // an error may come in place of the hello: read what both begin with
+    OniPipeMessage message;  // an error may replace the hello: read their common part
     pipe_.Take(&hello.magic, sizeof(hello.magic));
     if (hello.magic != OniPipeHello::kMagic) {
       message.kind = static_cast<OniPipeKind>(hello.magic);
@@ -89,7 +89,7 @@ class OniFileSource final : public FrameSource {
     pipe_.Take(result.frame.depth_mm.data(), result.frame.depth_mm.size() * sizeof(uint16_t));
     result.frame.index = message.index;
     result.frame.time_s = static_cast<double>(message.timestamp_us) * 1e-6;
-    pipe_.TookFrame(message.index);
+    pipe_.RecordFrame(message.index);
     return result;
   }
 
@@ -100,10 +100,10 @@ class OniFileSource final : public FrameSource {
   }
 
   std::string name_;
-  std::optional<Camera> own_camera_;  // as ossa wrote it into the file
+  std::optional<Camera> own_camera_;  // as written by ossa
   RecordingPipe pipe_;
-  Camera whole_;   // of the whole image, of which frames may show a part
-  Camera camera_;  // of the part
+  Camera whole_;   // of the full image, of which frames may be a part
+  Camera camera_;  // of the frames
   std::optional<int64_t> frame_count_;
 };
 

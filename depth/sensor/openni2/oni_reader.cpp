@@ -1,6 +1,6 @@
-// ossa_oni_reader FILE.oni: plays a recording through OpenNI2 and writes its frames to standard
-// output. A program of its own so that a file that crashes, hangs or bloats the OpenNI2 library
-// ends this process and not the one that wants the frames.
+// ossa_oni_reader FILE.oni: plays a recording with OpenNI2 and writes its frames to standard
+// output. A separate program, so that a file that makes OpenNI2 crash, hang or exhaust memory
+// affects only this process.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -19,8 +19,8 @@
 namespace ossa::depth {
 namespace {
 
-// A frame that is in the file comes at once; these bound the wait for one that is not. A file of
-// unknown length has its end where the player falls silent.
+// By hand, bounds: existing frames arrive immediately; this limits the wait for missing ones. A
+// file of unknown length ends when the player stops delivering.
 constexpr int kFrameTimeout_ms = 3000;
 constexpr int kEndTimeout_ms = 1500;
 
@@ -43,8 +43,8 @@ void SendFrame(const openni::VideoFrameRef& frame, bool mirrored, int64_t index)
   WriteToParent(depth_mm.data(), depth_mm.size() * sizeof(uint16_t));
 }
 
-// As many frames as the file says, or until none comes when it does not say (a recorder was
-// killed). readFrame past the end never returns, so each is waited for first.
+// Sends the number of frames in the file or, if unknown (a killed recorder), until none arrives.
+// readFrame never returns past the end, so each frame is waited for first.
 void SendFrames(openni::VideoStream& stream, int frame_count) {
   const bool known = frame_count >= 0;
   const bool mirrored = stream.getMirroringEnabled();
@@ -71,8 +71,8 @@ void SendFrames(openni::VideoStream& stream, int frame_count) {
   WriteToParent(&static_cast<const OniPipeMessage&>(OniPipeMessage{}), sizeof(OniPipeMessage));
 }
 
-// OpenNI2 crashes on names that are not ASCII (it takes bytes for signed numbers and indexes a
-// table by their sum) and cuts long ones short: it is given one that is neither.
+// An ASCII alias for a file name: OpenNI2 crashes on other characters (it uses signed bytes as a
+// table index) and truncates long names.
 std::string PlainName(const char* path) {
   const int file = open(path, O_RDONLY);
   if (file < 0) throw InputError(std::string("cannot be read: ") + std::strerror(errno));
@@ -92,8 +92,8 @@ void Play(const char* path) {
   openni::PlaybackControl* playback = device.getPlaybackControl();
   if (playback == nullptr) throw InputError("expected a recording, found a device");
   playback->setRepeatEnabled(false);
-  playback->setSpeed(-1);  // lock step: any other speed drops frames
-  // Kept in 32 bits, -1 (written as all ones) when the recorder was killed.
+  playback->setSpeed(-1);  // lock step: other speeds drop frames
+  // 32 bits; -1 (all ones) if the recorder was killed.
   const int frame_count = playback->getNumberOfFrames(stream);
   const OniPipeHello hello{OniPipeHello::kMagic, ReadWindow(stream, stream.getMirroringEnabled()),
                            stream.getHorizontalFieldOfView(), stream.getVerticalFieldOfView(),
@@ -119,6 +119,6 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     ossa::depth::SendError(error.what());
   }
-  // No shutdown of a library that may be damaged: leave at once.
+  // No cleanup of a possibly corrupted library.
   _exit(0);
 }

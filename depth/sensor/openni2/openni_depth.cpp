@@ -14,7 +14,7 @@ namespace {
 
 // Constants: bounds of a field of view, by hand.
 
-// OpenNI2 counts initialisations without a lock.
+// OpenNI2 counts initialisations without locking.
 std::mutex& SessionMutex() {
   static std::mutex mutex;
   return mutex;
@@ -22,8 +22,8 @@ std::mutex& SessionMutex() {
 
 ImageWindow WholeImage(int width, int height) { return {width, height, 0, 0, width, height}; }
 
-// OpenNI2 counts a window's place in the image as it is delivered: where that is mirrored, from the
-// other side.
+// OpenNI2 gives a window's position in the delivered image: if that is mirrored, from the other
+// side.
 ImageWindow TurnedBack(ImageWindow window, bool mirrored) {
   if (mirrored) window.left = window.whole_width - window.left - window.width;
   return window;
@@ -45,7 +45,8 @@ OpenNiSession::~OpenNiSession() {
 }
 
 std::string OpenNiError() {
-  // Lines of growing generality, each ended by tabs and newlines: the first says most.
+  // Lines of increasing generality, each ended by tabs and newlines: the first is the most
+  // specific.
   std::istringstream words(openni::OpenNI::getExtendedError());
   std::string text;
   for (std::string word; words >> word;) {

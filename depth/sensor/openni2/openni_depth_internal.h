@@ -12,21 +12,21 @@
 
 namespace ossa::depth {
 
-/// OpenNI2's account of its last error, as one line.
+/// OpenNI2's last error, as one line.
 std::string OpenNiError();
 
-/// Millimetres of a depth frame, whole or cropped: 100-µm depths are rounded, mirrored images
-/// turned back. Throws InputError for pixel formats without depths.
+/// Millimetres of a depth frame, full or cropped: 100-µm depths are rounded, mirrored images
+/// reversed. Throws InputError for pixel formats without depth.
 std::vector<uint16_t> ReadMillimetres(const openni::VideoFrameRef& frame, bool mirrored);
 
-/// What ReadMillimetres's result shows of the image turned back. Throws InputError for a window
-/// that is not within the image.
+/// The window of ReadMillimetres's result in the unmirrored image. Throws InputError if it is not
+/// within the image.
 ImageWindow ReadWindow(const openni::VideoFrameRef& frame, bool mirrored);
 
-/// The same as the stream has it for its frames to come; the whole image where it says nonsense.
+/// The window of the stream's following frames; the full image if it is invalid.
 ImageWindow ReadWindow(const openni::VideoStream& stream, bool mirrored);
 
-/// The pinhole camera of a field of view, centre of the image.
+/// The pinhole camera with this field of view and a centred principal point.
 Camera CameraFromFieldOfView(int width, int height, double horizontal_rad, double vertical_rad);
 
 }  // namespace ossa::depth

@@ -2,11 +2,11 @@
 
 namespace ossa::depth {
 
-/// Between OpenNI2's initialize and shutdown, which OpenNI2 counts. Drivers of ours announce no
-/// device while one ends, so that neither waits for the other.
+/// Initialises OpenNI2 and shuts it down (reference-counted by OpenNI2). During a shutdown our
+/// drivers announce no devices, to avoid a deadlock.
 class OpenNiSession {
  public:
-  OpenNiSession();  // throws InputError when OpenNI2 or its drivers cannot be loaded
+  OpenNiSession();  // throws InputError if OpenNI2 or its drivers cannot be loaded
   ~OpenNiSession();
   OpenNiSession(const OpenNiSession&) = delete;
   OpenNiSession& operator=(const OpenNiSession&) = delete;

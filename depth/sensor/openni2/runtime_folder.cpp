@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 fs::path OpenNiRuntimeFolder() {
   if (const char* chosen = std::getenv("OSSA_OPENNI2")) return chosen;
   Dl_info info{};
-  // The file this very function was loaded from: our library, or the program if linked statically.
+  // The file that contains this function: our library, or the program if statically linked.
   if (dladdr(reinterpret_cast<const void*>(&OpenNiRuntimeFolder), &info) == 0) {
     throw InputError("OpenNI2: the folder of ossa's own library cannot be found");
   }

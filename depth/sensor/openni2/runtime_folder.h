@@ -3,10 +3,10 @@
 
 namespace ossa::depth {
 
-/// The folder with ossa's OpenNI2: a link to libOpenNI2.so.0 and beside it OpenNI2/Drivers with the
-/// drivers it shall load, ours among them (OpenNI2 looks nowhere else). It lies beside our own
-/// library, in the build tree as after installation; the environment's OSSA_OPENNI2 overrides.
-/// Throws InputError when it is not there.
+/// The folder of ossa's OpenNI2: a link to libOpenNI2.so.0 and beside it OpenNI2/Drivers with the
+/// drivers to load, including ours (OpenNI2 looks nowhere else). It is beside our library, in the
+/// build tree as after installation; the environment variable OSSA_OPENNI2 overrides it. Throws
+/// InputError if it does not exist.
 std::filesystem::path OpenNiRuntimeFolder();
 
 }  // namespace ossa::depth

@@ -41,7 +41,7 @@ Bytes ReadBytes(const rosbag::MessageInstance& message) {
   return bytes;
 }
 
-// The first message of a topic; empty where there is none.
+// The first message of a topic; empty if there is none.
 Bytes ReadFirst(const rosbag::Bag& bag, const std::string& topic) {
   if (topic.empty()) return {};
   rosbag::View view(bag, rosbag::TopicQuery(topic));
@@ -60,22 +60,22 @@ std::vector<std::string> DepthTopics(const rosbag::Bag& bag, const std::vector<B
   return depth;
 }
 
-// The RealSense viewer's: metres to the unit; 0 where nothing states it.
+// Metres per unit in bags of the RealSense viewer; 0 if not stated.
 double ReadUnit(const rosbag::Bag& bag, const std::string& topic) {
   const Bytes unit = ReadFirst(bag, topic);
   const float metres = unit.empty() ? 0.0F : ParseRosFloat(unit);
   return metres > 0 && std::isfinite(metres) ? metres : 0.0;
 }
 
-// What the depth images show, and how.
+// Properties of the depth topic.
 struct DepthTopic {
   ReaderHello hello;
-  std::vector<int32_t> undistortion;  // of them to a pinhole's; empty: they are one's
-  double unit_m = 0.0;                // metres to the unit; 0: nobody knows
+  std::vector<int32_t> undistortion;  // pixel map to a pinhole image; empty: none needed
+  double unit_m = 0.0;                // metres per unit; 0: unknown
 };
 
-// Of raw images the lens is undone: the images that it bends most are an Azure Kinect's, whose
-// corners are 30 pixels off.
+// Undistortion map of raw images. The strongest distortion is Azure Kinect's: 30 pixels in the
+// corners.
 std::vector<int32_t> FindUndistortion(const RosCameraInfo& info, const BagChoice& choice,
                                       const Camera& camera) {
   if (!choice.is_info_own || IsRectified(choice.image) || !HasLens(info)) return {};
@@ -113,7 +113,7 @@ DepthTopic MakeTopic(const rosbag::Bag& bag, const BagChoice& choice, const RosI
   return topic;
 }
 
-// A frame that is to be given, and the number of those left out before it.
+// Sends a frame and the number of frames dropped before it.
 void Give(const DepthTopic& topic, const TimedDepth& frame, int64_t dropped) {
   const Camera& camera = topic.hello.camera;
   const ReaderFrame head{camera.width, camera.height, frame.time_s, dropped};
@@ -151,7 +151,7 @@ void Read(const std::string& path, const std::string& asked) {
   try {
     AddFrames(view, choice.image, first, topic.unit_m, order);
   } catch (...) {
-    order.Finish();  // what is wrong comes after the frames that are right
+    order.Finish();  // errors are reported after the valid frames
     throw;
   }
   order.Finish();

@@ -21,14 +21,14 @@ std::string Listed(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
-// A topic's name up to its last /.
+// A topic's namespace: its name up to the last /.
 std::string_view NamespaceOf(std::string_view topic) {
   return topic.substr(0, topic.rfind('/') + 1);
 }
 
-// What two names have in common from the beginning on, characters.
+// Length of the common prefix of two names, in characters.
 struct Common {
-  size_t namespaces = 0;  // in whole ones: /camera1/ and /camera2/ have but the first /
+  size_t namespaces = 0;  // in complete namespaces: only "/" for /camera1/ and /camera2/
   size_t characters = 0;
   auto operator<=>(const Common&) const = default;
 };
@@ -39,14 +39,15 @@ Common CommonBeginning(std::string_view a, std::string_view b) {
   return {NamespaceOf(a.substr(0, characters)).size(), characters};
 }
 
-// Whether a topic is of the image's sensor: in its namespace, or in one of depth that both share.
+// Whether a topic belongs to the image's sensor: it is in the same namespace, or in a depth
+// namespace that both share.
 bool IsItsOwn(const std::string& topic, const std::string& image) {
   return NamespaceOf(topic) == NamespaceOf(image) ||
          SaysDepth(image.substr(0, CommonBeginning(image, topic).characters));
 }
 
-// The topic of this type and ending in the image's namespace, else in the one that shares most of
-// it: more than the / that all begin with, so that it is no other camera's.
+// The topic of this type and suffix in the image's namespace, else in the one that shares the
+// longest part with it: more than the leading /, so that it does not belong to another camera.
 std::string SiblingTopic(const std::string& image, const std::vector<BagTopic>& topics,
                          std::string_view type, std::string_view ending) {
   std::string best;
@@ -96,7 +97,7 @@ BagChoice ChooseDepthTopic(const std::vector<std::string>& depth,
     choice.notes.push_back("has no camera_info of " + choice.image + "'s own and takes " +
                            choice.camera_info + ": --camera says otherwise");
   }
-  for (const char* unit : {"Depth_Units/value", "Depth Units/value"}) {  // as librealsense aged
+  for (const char* unit : {"Depth_Units/value", "Depth Units/value"}) {  // by librealsense version
     if (!choice.unit.empty()) break;
     choice.unit = SiblingTopic(choice.image, topics, "std_msgs/Float32", unit);
   }

@@ -14,11 +14,11 @@ using nlohmann::json;
 
 constexpr const char* kName = "the attached calibration";
 
-// How a mode's image is cut out of the sensor's, which may have been binned by 2 before (Azure
+// How a mode's image is cropped from the sensor's, which may have been binned by 2 first (Azure
 // Kinect SDK, transformation_get_mode_specific_depth_camera_calibration).
 struct Mode {
   int width, height;
-  int sensor_px;  // side of the whole image
+  int sensor_px;  // side of the full image
   int left, top;
 };
 constexpr std::array<Mode, 4> kModes = {{{320, 288, 512, 96, 90},
@@ -43,7 +43,7 @@ json FindDepthCamera(const json& calibration) {
   Fail("a camera whose Purpose is CALIBRATION_CameraPurposeDepth");
 }
 
-// cx cy fx fy k1 ... k6 codx cody p2 p1; the first four as shares of the sensor's size.
+// cx cy fx fy k1 ... k6 codx cody p2 p1; the first four relative to the sensor's size.
 std::array<double, 14> ReadParameters(const json& camera) {
   const json::json_pointer place("/Intrinsics/ModelParameters");
   std::array<double, 14> parameters{};
@@ -62,7 +62,7 @@ std::array<double, 14> ReadParameters(const json& camera) {
 }  // namespace
 
 LensCamera ReadK4aCalibration(const std::string& text, int width, int height) {
-  constexpr double kUsualRadius = 1.7;  // x/z and y/z, a ratio; where none is stated, by the SDK
+  constexpr double kUsualRadius = 1.7;  // x/z and y/z, a ratio; default, by the SDK
   const json calibration = json::parse(text, nullptr, false);
   if (calibration.is_discarded()) Fail("JSON");
   const json camera = FindDepthCamera(calibration);
@@ -74,7 +74,7 @@ LensCamera ReadK4aCalibration(const std::string& text, int width, int height) {
   }
   const auto p = ReadParameters(camera);
   LensCamera lens;
-  // There the corner of the first pixel is the origin, here its centre is.
+  // The SDK's origin is the corner of the first pixel, ours its centre.
   lens.pinhole = {width,
                   height,
                   p[2] * mode->sensor_px,

@@ -5,9 +5,9 @@
 
 namespace ossa::depth {
 
-/// The depth camera of a calibration that k4arecorder attached to a recording, for images of this
-/// size: which mode of the sensor of 1024 × 1024 pixels they are of. Throws InputError naming what
-/// was expected.
+/// The depth camera from the calibration that k4arecorder attaches to a recording, for images of
+/// this size, which identifies the mode of the sensor of 1024 × 1024 pixels. Throws InputError
+/// naming the expectation.
 LensCamera ReadK4aCalibration(const std::string& json, int width, int height);
 
 }  // namespace ossa::depth

@@ -5,7 +5,7 @@
 namespace ossa::depth {
 namespace {
 
-// By which the lens moves what lies at r away from the axis; r2 is r squared.
+// Radial distortion factor at distance r from the axis; r2 is r squared.
 double ComputeRadialFactor(const LensCamera& lens, double r2) {
   return (1 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3))) /
          (1 + r2 * (lens.k4 + r2 * (lens.k5 + r2 * lens.k6)));

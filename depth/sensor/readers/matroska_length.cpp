@@ -6,15 +6,16 @@
 namespace ossa::depth {
 namespace {
 
-// Identities of elements, by definition.
-constexpr uint64_t kLargestHead = 4096;  // bytes, a bound by hand: it has some forty
+// Element ids, by definition.
+constexpr uint64_t kLargestHead = 4096;  // bytes, a bound by hand: headers have about forty
 constexpr uint64_t kEbmlHead = 0x1A45DFA3, kSegment = 0x18538067;
 
-// A number of EBML: the zeros before its first set bit say how many bytes follow the first.
+// An EBML variable-length integer: the zeros before its first set bit give the number of further
+// bytes.
 struct Number {
-  uint64_t raw = 0;         // with the bit that says the length, as identities are written
-  uint64_t value = 0;       // without it
-  bool is_unknown = false;  // all ones: a size that was not known when it was written
+  uint64_t raw = 0;         // including the length marker, as in element ids
+  uint64_t value = 0;       // without the marker
+  bool is_unknown = false;  // all ones: a size unknown at the time of writing
 };
 
 std::optional<Number> ReadNumber(std::istream& in) {

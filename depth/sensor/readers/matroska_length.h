@@ -1,14 +1,14 @@
 #pragma once
-// Whether a Matroska recording has all the bytes that its head counts: libavformat gives the frames
-// before a cut and does not say that there were more. RFC 8794 (EBML) and RFC 9559 (Matroska).
+// Checks whether a Matroska recording is complete: libavformat returns the frames before a
+// truncation without reporting it. RFC 8794 (EBML) and RFC 9559 (Matroska).
 #include <istream>
 #include <optional>
 #include <string>
 
 namespace ossa::depth {
 
-/// What to warn of: that the file ends before its one segment does, or that its recorder never
-/// wrote how long the segment is. Nothing where it is whole, or where it is no Matroska.
+/// A warning if the file ends before its segment does, or if its recorder never wrote the segment's
+/// length. None if it is complete, or not Matroska.
 std::optional<std::string> CheckForCut(std::istream& in);
 
 }  // namespace ossa::depth

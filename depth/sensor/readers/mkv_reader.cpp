@@ -1,7 +1,7 @@
-// ossa_mkv_reader FILE.mkv: writes the depth images of an Azure Kinect's or a Femto's recording to
-// standard output. k4arecorder's format: a video track titled DEPTH of 16-bit greys, millimetres,
-// uncompressed; the camera's calibration is attached as JSON; colour, infrared and inertial tracks
-// beside it are left alone. Any lossless codec of 16-bit greys does as well.
+// ossa_mkv_reader FILE.mkv: writes the depth images of an Azure Kinect or Femto recording to
+// standard output. k4arecorder's format: a video track titled DEPTH of uncompressed 16-bit grey,
+// millimetres; the camera's calibration is attached as JSON; colour, infrared and inertial tracks
+// are ignored. Any lossless codec for 16-bit grey works, too.
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -101,7 +101,7 @@ class DepthTrack {
     SendHello(hello);
   }
 
-  // Azure's frames are far from what a pinhole shows: 30 pixels in the narrow view's corners.
+  // Azure's frames are strongly distorted: 30 pixels in the corners of the narrow view.
   void Give(const AVFrame& frame) const {
     if (frame.width != width_ || frame.height != height_) {
       throw InputError("depth track: a frame of another size");
@@ -125,7 +125,7 @@ class DepthTrack {
   }
 
  private:
-  // A calibration that is none costs the undistortion and not the recording.
+  // An invalid calibration prevents undistortion, not reading.
   void TakeCalibration(const std::string& text, ReaderHello& hello) {
     try {
       const LensCamera lens = ReadK4aCalibration(text, width_, height_);

@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
-// Which program reads a kind of file, and whose library it needs.
+// The reader program of a file type, and the library that it needs.
 struct Reader {
   const char* program;
-  const char* library;  // Debian's package
+  const char* library;  // Debian package
 };
 
 fs::path FindProgram(const Reader& reader, const std::string& name) {
@@ -75,7 +75,7 @@ class ReaderSource final : public FrameSource {
                                      static_cast<size_t>(hello_.camera.height);
   }
 
-  // The next message that is not a note: one of this kind and size, or the end.
+  // The next message other than a note: one of this kind and size, or the end.
   ReaderMessage TakeMessage(ReaderKind wanted, size_t size) {
     for (;;) {
       ReaderMessage message;
@@ -105,7 +105,7 @@ class ReaderSource final : public FrameSource {
     result.dropped = head.dropped;
     result.frame.index = pipe_.next_frame() + head.dropped;
     result.frame.time_s = head.time_s;
-    pipe_.TookFrame(result.frame.index);
+    pipe_.RecordFrame(result.frame.index);
     return result;
   }
 

@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "ROS's byte order is taken for ours");
 
-// What is left of a message.
+// The remaining bytes of a message.
 class Message {
  public:
   explicit Message(std::span<const uint8_t> bytes) : bytes_(bytes) {}
@@ -73,7 +73,7 @@ std::vector<Sample> DecodeSamples(const RosImage& image) {
   return samples;
 }
 
-// Whether images of this size are of the part of the whole that the sensor gives.
+// Whether images of this size show the region of interest.
 bool ShowsRegion(const RosCameraInfo& info, int width, int height) {
   const RosCameraInfo::Region& region = info.region;
   const bool is_part = region.width > 0 && region.height > 0 && region.width <= info.width &&
@@ -118,7 +118,7 @@ RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> bytes) {
   info.k = message.Value<std::array<double, 9>>();
   message.Value<std::array<double, 9>>();  // R
   info.p = message.Value<std::array<double, 12>>();
-  message.Value<std::array<uint32_t, 2>>();  // binning: the image's size says it
+  message.Value<std::array<uint32_t, 2>>();  // binning follows from the image size
   info.region.left = message.Value<uint32_t>();
   info.region.top = message.Value<uint32_t>();
   info.region.height = message.Value<uint32_t>();

@@ -12,8 +12,8 @@
 
 namespace ossa::depth {
 
-// ROS 1 messages as they lie in a bag (wiki.ros.org/msg, little-endian, strings and arrays with
-// their length before them). Parsers throw InputError for bytes that are cut short.
+// ROS 1 messages as stored in a bag (wiki.ros.org/msg, little-endian, strings and arrays preceded
+// by their length). Parsers throw InputError for truncated messages.
 
 /// sensor_msgs/Image.
 struct RosImage {
@@ -28,9 +28,9 @@ RosImage ParseRosImage(std::span<const uint8_t> message);
 
 /// sensor_msgs/CameraInfo.
 struct RosCameraInfo {
-  uint32_t height = 0, width = 0;  // of the whole images that k and p are of, pixels; 0: not said
+  uint32_t height = 0, width = 0;  // of the full images of k and p, pixels; 0: not stated
   std::string distortion_model;
-  std::vector<double> d;       // of that model, of raw images
+  std::vector<double> d;       // coefficients of that model, for raw images
   std::array<double, 9> k{};   // fx 0 cx 0 fy cy 0 0 1, pixels; all 0: not calibrated
   std::array<double, 12> p{};  // fx 0 cx 0 0 fy cy 0 0 0 1 0 of rectified images; 0: none
   struct Region {
@@ -40,17 +40,17 @@ struct RosCameraInfo {
 };
 RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> message);
 
-/// Whether a topic has images whose lens is undone, as image_rect: p is of them, and k of others.
+/// Whether a topic has rectified images, such as image_rect: they have the camera p, others k.
 bool IsRectified(std::string_view topic);
 
-/// The camera of width × height pixels that it states, scaled where its own size, or its region's,
-/// is another of the same shape; nothing where it is not calibrated, or of images of another shape.
+/// The camera for images of width × height pixels, scaled if its own size, or that of its region,
+/// differs but has the same shape; none if it is not calibrated, or of another shape.
 std::optional<Camera> CameraOf(const RosCameraInfo& info, bool is_rectified, int width, int height);
 
-/// The lens through which raw images of this camera are seen: of the models plumb_bob and
-/// rational_polynomial (OpenCV's). Nothing where it bends nothing, or is of another model.
+/// The distortion of raw images of this camera, for the models plumb_bob and rational_polynomial
+/// (OpenCV's). None if it is zero, or of another model.
 std::optional<LensCamera> LensOf(const RosCameraInfo& info, const Camera& camera);
-/// Whether it states a lens that bends anything.
+/// Whether it states a non-zero distortion.
 bool HasLens(const RosCameraInfo& info);
 
 /// std_msgs/Float32.
@@ -63,8 +63,8 @@ enum class RosDepth {
 };
 RosDepth ParseDepthEncoding(const RosImage& image);
 
-/// Depths, row-major, height × width; of metres millimetres, and of 16 bits if metres_per_unit > 0,
-/// else the numbers themselves. Throws InputError for an image that holds too few bytes.
+/// Depths, row-major, height × width: millimetres from metres, and from 16 bits if metres_per_unit
+/// > 0; else the raw values. Throws InputError for an image with too few bytes.
 std::vector<uint16_t> DecodeDepths(const RosImage& image, double metres_per_unit);
 
 }  // namespace ossa::depth

@@ -12,13 +12,12 @@ struct TimedDepth {
   std::vector<uint16_t> depth;  // row-major, height × width
 };
 
-/// Puts frames that were received in another order than they were taken into that of their stamps.
-/// Some are held meanwhile; one that comes later yet is left out, so that time never runs
-/// backwards. Where one after the other comes too late, the clock was set back: time goes on from
-/// there.
+/// Reorders frames by time stamp. Several frames are buffered; frames that arrive even later are
+/// dropped, so that time never runs backwards. If consecutive frames are too late, the clock was
+/// set back: times continue from there.
 class StampOrder {
  public:
-  /// What becomes of each frame, with the number of those left out since the one before.
+  /// Receives each frame, with the number of frames dropped before it.
   using Give = std::function<void(TimedDepth frame, int64_t dropped)>;
   explicit StampOrder(Give give) : give_(std::move(give)) {}
 
@@ -30,11 +29,11 @@ class StampOrder {
     held_.emplace(frame.time_s, std::move(frame.depth));
     if (held_.size() > kHeld) GiveFirst();
   }
-  /// Gives what is held.
+  /// Emits the buffered frames.
   void Finish() {
     while (!held_.empty()) GiveFirst();
   }
-  /// Frames left out so far.
+  /// Frames dropped so far.
   int64_t late() const { return late_; }
 
  private:
@@ -60,7 +59,7 @@ class StampOrder {
   std::multimap<double, std::vector<uint16_t>> held_;  // by time
   bool given_ = false;
   double last_s_ = 0.0;
-  double set_back_s_ = 0.0;  // by which the clock was
+  double set_back_s_ = 0.0;  // amount by which the clock was set back
   size_t late_in_a_row_ = 0;
   int64_t late_ = 0, dropped_ = 0;
 };

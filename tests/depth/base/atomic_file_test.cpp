@@ -31,7 +31,7 @@ TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
   std::filesystem::remove_all(folder);
 }
 
-// A rename would put a file in the place of /dev/null.
+// A rename would replace /dev/null by a file.
 TEST(AtomicFile, TakesThePlaceOfAFileOnly) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "folder");
@@ -43,7 +43,7 @@ TEST(AtomicFile, TakesThePlaceOfAFileOnly) {
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
 }
 
-// Else the disk that a link leads away from would be filled.
+// Otherwise a link to another disk would be replaced by a file on this one.
 TEST(AtomicFile, ALinkStaysAndWhatItLeadsToIsWritten) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "large_disk");
@@ -71,7 +71,7 @@ TEST(AtomicFile, AFileThatMayNotBeWrittenIsNotReplaced) {
   EXPECT_THROW(AtomicFile::CheckWritable(folder / "kept"), InputError);
 }
 
-// What was for one's own eyes stays so, and what a group shares.
+// Private files stay private, and group-shared ones shared.
 TEST(AtomicFile, AFileHandsItsPermissionsOn) {
   const test::TemporaryFolder folder;
   for (const mode_t mode : {0600U, 0664U}) {
@@ -91,7 +91,7 @@ std::string TextOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// What is left is told of and stays: it may be somebody's only footage.
+// Leftovers are listed but kept: they may be the user's only recording.
 TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
   const test::TemporaryFolder folder;
   const auto leave = [&](const std::string& name) {
@@ -99,7 +99,7 @@ TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
     return folder / name;
   };
   const auto left = leave("out.oni.partial-00c0ffee0000");
-  const auto old = leave("out.oni.partial-1234");  // by the process's number, as earlier ossas did
+  const auto old = leave("out.oni.partial-1234");  // by process id, as in earlier versions
   leave("out.oni");
   leave("other.oni.partial-00c0ffee0000");
   leave("out.oni2.partial-1234");
@@ -113,7 +113,7 @@ TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
   EXPECT_EQ(TextOf(old), "half");
 }
 
-// A name may have 255 bytes, as a rule: all of them are the user's.
+// File names usually may have 255 bytes, all of which users may use.
 TEST(AtomicFile, ANameMayBeAsLongAsTheFileSystemTakes) {
   const test::TemporaryFolder folder;
   for (size_t length = 230; length <= 255; ++length) {
@@ -129,7 +129,7 @@ TEST(AtomicFile, ANameMayBeAsLongAsTheFileSystemTakes) {
   EXPECT_THROW(AtomicFile(folder / std::string(256, 'n')), InputError);
 }
 
-// By which a recording that was cut is known.
+// The extension identifies an incomplete recording.
 TEST(AtomicFile, ALongNameKeepsItsExtension) {
   const test::TemporaryFolder folder;
   const AtomicFile file(folder / (std::string(251, 'n') + ".oni"));
@@ -179,7 +179,8 @@ TEST(AtomicFile, WhatTheKilledLeftOfOneFileIsRemoved) {
   }
 }
 
-// Two writers of one name, in one process or two: each has a file of its own, whole in the end.
+// Two writers of one name, in one process or two: each writes its own file, and the result is
+// complete.
 TEST(AtomicFile, OfTwoWritersTheLastOnesIsWhole) {
   const test::TemporaryFolder folder;
   AtomicFile first(folder / "out"), second(folder / "out");
@@ -192,8 +193,8 @@ TEST(AtomicFile, OfTwoWritersTheLastOnesIsWhole) {
   EXPECT_EQ(TextOf(folder / "out"), "the first one's");
 }
 
-// In a folder that others may write to somebody puts a link in the file's place: what the link
-// leads to stays as it is.
+// In a folder that others may write to, a link is put in the file's place: its target is not
+// modified.
 TEST(AtomicFile, NeverWritesThroughALinkThatWasPutInItsPlace) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "precious") << "precious";
@@ -205,7 +206,7 @@ TEST(AtomicFile, NeverWritesThroughALinkThatWasPutInItsPlace) {
   EXPECT_EQ(TextOf(folder / "precious"), "precious");
 }
 
-// Who finds it knows that somebody is writing it.
+// The lock shows that the file is being written.
 TEST(AtomicFile, IsLockedWhileItIsWritten) {
   const test::TemporaryFolder folder;
   std::optional<AtomicFile> file(folder / "out");
@@ -236,7 +237,7 @@ TEST(AtomicFile, WhatIsTakenOutIsGoneAndTheRestMovesUp) {
   AtomicFile file(folder / "out");
   const std::string rows(size_t{3} << 20, 'r');  // more than is moved at a time
   file.stream() << "head....." << rows;
-  file.TakeOut(4, 5);
+  file.RemoveBytes(4, 5);
   file.stream() << "end";
   file.Commit();
   EXPECT_EQ(TextOf(folder / "out"), "head" + rows + "end");

@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(EveryField, DamagedContainer,
                                          Damage{12, "version"}, Damage{16, "length"},
                                          Damage{24, "checksum"}, Damage{33, "checksum"}));
 
-// A terabyte that takes no room on the disk.
+// A sparse file of a terabyte.
 TEST(ChecksummedContainer, AnotherFileIsRefusedByItsHeaderBeforeAllocating) {
   const test::TemporaryFolder folder;
   for (const auto& [name, field] : {std::pair("other", "magic"), {"longer", "length"}}) {
@@ -109,7 +109,7 @@ TEST(ChecksummedContainer, ACountLargerThanTheFileIsRefusedBeforeAllocating) {
   EXPECT_THROW(reader.GetVector<double>("values"), InputError);
 }
 
-// To open it would be to wait for who writes to it.
+// Opening it would wait for a writer.
 TEST(OpenFile, APipeIsNoFile) {
   const test::TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);

@@ -27,7 +27,7 @@ TEST(Compressed, BytesAreFewerAndComeBack) {
   EXPECT_TRUE(Decompress(Compress({}, 3), "x", "thing").empty());
 }
 
-// Of other damage the file's seal tells.
+// Other damage is detected by the file's checksum.
 TEST(Compressed, WhatZstdDidNotMakeIsRefusedByName) {
   constexpr size_t kFrame = 2 * sizeof(uint64_t);  // after two lengths
   std::vector<std::byte> damaged = Compress(Steps(), 3);
@@ -53,7 +53,7 @@ std::vector<std::byte> Noise(size_t size) {
   return bytes;
 }
 
-// Before anything is allocated, not as bytes that are damaged.
+// Refused before allocation, not as damaged data.
 TEST(Compressed, ALengthThatSoFewBytesCannotHoldIsRefused) {
   std::vector<std::byte> lying = Compress(Noise(8000), 3);
   for (const uint64_t size : {uint64_t{1} << 30U, uint64_t{8001}}) {

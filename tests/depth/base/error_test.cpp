@@ -7,7 +7,7 @@
 namespace ossa {
 namespace {
 
-// Names quoted from a damaged model once broke the line in two (found by fuzzing).
+// Names quoted from a damaged model may contain line breaks (found by fuzzing).
 TEST(InputErrors, StayOneLineWhateverTheyQuote) {
   EXPECT_STREQ(InputError("a.ossa: target 'He\nad\x1B'").what(), "a.ossa: target 'He\\x0Aad\\x1B'");
 }

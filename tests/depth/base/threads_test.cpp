@@ -10,7 +10,7 @@
 namespace ossa {
 namespace {
 
-// A library prints nothing. First of all tests: TBB says it once.
+// Libraries print nothing. Must be the first test: TBB prints its warning once.
 TEST(ParallelFor, SaysNothingOfThreadsThatThereAreNot) {
   testing::internal::CaptureStderr();
   std::atomic<int> done = 0;

@@ -25,14 +25,14 @@ TEST(CameraJson, GivesBackExactlyWhatWasWritten) {
   EXPECT_EQ(ReadCameraJson(folder / "camera.json"), camera);
 }
 
-// A pipe that nobody writes to would be waited for, whatever signal comes.
+// Reading a pipe without a writer would block, whatever signal arrives.
 TEST(CameraJson, APipeIsNone) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "camera.json").c_str(), 0600), 0);
   auto read =
       std::async(std::launch::async, [&] { return ReadCameraJson(folder / "camera.json"); });
   const bool waits = read.wait_for(std::chrono::seconds(10)) == std::future_status::timeout;
-  const int both_ends = open((folder / "camera.json").c_str(), O_RDWR);  // who waits goes on
+  const int both_ends = open((folder / "camera.json").c_str(), O_RDWR);  // unblocks a reader
   EXPECT_FALSE(waits);
   EXPECT_THROW(read.get(), InputError);
   close(both_ends);

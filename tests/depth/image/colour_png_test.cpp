@@ -8,7 +8,7 @@
 namespace ossa::depth {
 namespace {
 
-// What libpng's own simple reader sees in it.
+// Decodes it with libpng's own simple reader.
 std::vector<uint8_t> Read(const std::vector<uint8_t>& png, uint32_t format, ImageSize* size) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

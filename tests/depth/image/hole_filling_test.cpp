@@ -12,7 +12,7 @@ namespace {
 constexpr int kWidth = 120, kHeight = 90;
 constexpr uint16_t kNear_mm = 1500, kFar_mm = 3200;
 
-// Somebody's flat front before a wall.
+// A flat object in front of a wall.
 DepthFrame NearBeforeFar() {
   DepthFrame frame;
   frame.camera = {kWidth, kHeight, 100, 100, 60, 45};
@@ -80,7 +80,7 @@ TEST(FillScatteredHoles, LeavesShadowsAndWhatIsCutOut) {
   }
 }
 
-// Depth that was registered to a larger image without being interpolated.
+// Depth registered to a larger image without interpolation.
 TEST(FillScatteredHoles, FillsMissingRowsAndColumns) {
   for (const int every : {2, 3, 4, 5}) {
     for (const bool columns_too : {false, true}) {

@@ -17,7 +17,7 @@ SensorImage Sense(const RenderedImage& rendered, uint64_t seed,
   return SimulateActiveStereo(rendered, kCamera, kCamera, options, seed);
 }
 
-/// Of the errors of pixels that are so far apart along a row.
+/// Correlation of the errors of pixels at this distance along a row.
 double Correlation(const SensorImage& a, const SensorImage& b, double true_mm, int apart_px) {
   double both = 0, squares = 0;
   for (int v = 0; v < kCamera.height; ++v) {

@@ -75,7 +75,7 @@ TriangleMesh WallOfSquares() {
   return mesh;
 }
 
-// Threads share a data set's frames: none may show in its images which frames they made before.
+// Threads share a data set's frames: an image must not depend on earlier ones.
 TEST(Renderer, WhatItRenderedBeforeDecidesNoTie) {
   const TriangleMesh wall = WallOfSquares();
   std::vector<Eigen::Vector3f> rolled = wall.vertices_m;

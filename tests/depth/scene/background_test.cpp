@@ -1,4 +1,4 @@
-// What stands before the background that was seen before.
+// Foreground relative to a known background.
 #include "depth/scene/background.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace ossa::depth {
 namespace {
 
-// Cells of the frame that are a person's.
+// The cells of a person.
 std::vector<int> CellsOfPerson(const CapsuleRender& render, const PointGrid& grid) {
   std::vector<int> cells;
   for (int i = 0; i < grid.cells(); ++i) {
@@ -69,7 +69,7 @@ void See(float z_m, int frames, BackgroundState& state, bool claimed = false) {
   for (int f = 0; f < frames; ++f) LearnBackground(grid, claims, state);
 }
 
-// Whether such a wall is what was seen there so long that it is the background.
+// Whether a wall at this depth is the background.
 bool IsBackground(float z_m, const BackgroundState& state) {
   DepthFrame frame;
   frame.camera = KinectV1Camera(40, 30);
@@ -95,8 +95,8 @@ TEST(Background, IsNobodyWhoStandsStill) {
   EXPECT_FALSE(IsBackground(2.0F, state));
 }
 
-// A cupboard that was pushed before the wall is background after as long as the wall was seen, and
-// again so long.
+// A cupboard moved in front of the wall becomes background after as long as the wall was seen, plus
+// the usual time.
 TEST(Background, IsFurnitureThatWasMovedInTime) {
   BackgroundState state;
   See(3.0F, 30, state);
@@ -142,7 +142,7 @@ TEST(Background, SaysNothingOfAnImageOfAnotherHeight) {
   }
 }
 
-// What is farther in more than half of the known cells at once is no person who went away.
+// If more than half of the known cells are suddenly farther away, it is not a person who left.
 TEST(Background, IsForgottenWhereTheSensorMoved) {
   BackgroundState state;
   See(3.0F, 60, state);

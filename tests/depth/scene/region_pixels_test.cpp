@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFocal_px = 300.0;
 
-// Surfaces askew that meet and cross, noise as a sensor's, and holes.
+// Oblique, intersecting surfaces with sensor noise and holes.
 DepthFrame Ragged(int width, int height) {
   std::mt19937 draw(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -29,8 +29,8 @@ DepthFrame Ragged(int width, int height) {
   return frame;
 }
 
-// By the definition: a pixel follows the nearest in depth of the valid cells around it, its own
-// first, within 6 cm and the sensor's tolerance.
+// The definition: a pixel belongs to the valid surrounding cell nearest in depth, its own on ties,
+// within 6 cm plus the sensor's tolerance.
 bool IsMine(const DepthFrame& frame, const PointGrid& grid, const std::vector<bool>& member, int u,
             int v) {
   const uint16_t mm = frame.view().at(u, v);
@@ -62,7 +62,7 @@ std::vector<int32_t> OneByOne(const DepthFrame& frame, const PointGrid& grid,
   return pixels;
 }
 
-// Cells of a pixel, of two, of four, and such as the image's borders cut.
+// Cells of one, two and four pixels, including cells cut by the image border.
 TEST(RegionPixels, AreThoseThatFollowACellOfTheRegion) {
   for (const auto& [width, height] : {std::pair{160, 120}, {321, 243}, {640, 480}, {653, 481}}) {
     const DepthFrame frame = Ragged(width, height);
@@ -99,7 +99,7 @@ TEST(ConnectedRegions, HaveEachCellOnceAscendingAndTheLargestFirst) {
                              [](const auto& a, const auto& b) { return a.area_m2 > b.area_m2; }));
 }
 
-// Of cells in any order, each lies where it belongs.
+// Cells in any order give the same region.
 TEST(ConnectedRegions, AreOneWhenUnited) {
   const DepthFrame frame = Ragged(160, 120);
   const PointGrid grid = MakePointGrid(frame.view(), frame.camera, 6.0F);

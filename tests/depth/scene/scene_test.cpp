@@ -1,4 +1,4 @@
-// The geometry of a frame: floor, flat pieces, furniture, whether the scene is the same as before.
+// The geometry of a frame: floor, flat pieces, furniture, and changes of the scene.
 #include "depth/scene/measure_scene.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace ossa::depth {
 namespace {
 
-// A cell is about as wide in images of any size, so that people have as many.
+// Cells cover about the same angle in images of any size, so that people have equally many.
 TEST(PointGrid, HasAboutAsManyCellsOfAnyImage) {
   for (int width = 120; width <= 1920; ++width) {
     const int cells = width / CellPixels(width);
@@ -49,7 +49,7 @@ TEST(FindFloor, IsAStripAtTheLowerBorder) {
   EXPECT_GE(found, 18);
 }
 
-// Of a sensor so far over the floor.
+// A grid seen from this height over the floor.
 PointGrid OverTheFloor(double height_m) {
   CapsuleScene scene;
   scene.planes = {{{0, 1, 0}, height_m}, {{0, 0, -1}, 4.5}};
@@ -141,9 +141,9 @@ TEST(FindRoomSurfaces, KnowTheFrontOfASofaThatLegsCutInTwo) {
   EXPECT_GT(RoomShare(Shot(people, 0, sofa), Shot(people)), 0.8);
 }
 
-// Share of a level top's cells that are taken for the room, as a Kinect sees it from 12 cm above:
-// it is a few rows of cells, and depth noise moves them by centimetres: no plane fits. Their height
-// it moves by some 3 mm.
+// Share of a table top's cells that are recognised, as seen by a Kinect 12 cm above it: few rows of
+// cells, whose depth noise of centimetres prevents a plane fit, while their height varies by about
+// 3 mm.
 double TopShare(double half_width_m, double near_m, double far_m) {
   constexpr double kTop_m = -0.12, kEdge_m = 0.05;
   CapsuleScene scene;
@@ -174,7 +174,7 @@ TEST(FindRoomSurfaces, TakeNothingAsNarrowAsALapForATable) {
   EXPECT_LT(TopShare(0.1, 0.9, 2.9), 0.1);  // larger than the smallest table
 }
 
-// What is the same scene from one frame to the next.
+// Detection of scene changes between frames.
 class SceneOverTime : public testing::Test {
  protected:
   Scene Measure(const CapsuleRender& render) { return MeasureScene(render.frame, state_); }

@@ -1,4 +1,4 @@
-// How much of a silhouette something nearer occludes.
+// The share of a silhouette occluded by nearer surfaces.
 #include "depth/scene/silhouette.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace ossa::depth {
 namespace {
 
-// The back of a seat, frontal, 2.2 m away; below it one looks through.
+// The back of a seat, frontal, 2.2 m away, open below.
 tests::Box SeatBack(double top_m) { return {{-0.31, -0.2, 2.2}, {0.31, top_m, 2.3}}; }
 
 CapsulePose SomebodyAt(double z_m) {

@@ -93,7 +93,7 @@ TEST(Bag, ACameraInfoOfImagesOfAnotherShapeIsPassedOverWithANote) {
   EXPECT_NE(notes.find("camera_info is of 512x424"), std::string::npos) << notes;
 }
 
-// Its columns are numbered; a lens that draws what lies at r to r (1 - 0.3 r^2).
+// An image of column numbers, with a lens that maps r to r (1 - 0.3 r^2).
 std::string WriteBagWithLens(const test::TemporaryFolder& folder, const std::string& topic) {
   std::vector<uint16_t> columns;
   for (int i = 0; i < 64 * 48; ++i) columns.push_back(static_cast<uint16_t>(1000 + i % 64));
@@ -129,7 +129,7 @@ TEST(Bag, OfRectifiedImagesItIsUndoneAlready) {
   EXPECT_EQ(frames[0].depth_mm[24 * 64 + 60], 1060);
 }
 
-// As `rosbag record` leaves one when it is killed.
+// The leftover of a killed `rosbag record`.
 TEST(Bag, OneThatIsStillActiveSaysHowItIsMended) {
   const test::TemporaryFolder folder;
   rosbag::Bag bag;
@@ -161,7 +161,7 @@ TEST(Bag, ManyDepthTopicsAreNoDamage) {
   EXPECT_EQ(FramesOf(*OpenSource(folder / "x.bag")).size(), 1u);
 }
 
-// Frames of these stamps, received in this order, a second each.
+// Frames with these stamps in order of reception, one second apart.
 void WriteBagOfStamps(const std::string& path, const std::vector<uint32_t>& stamps) {
   rosbag::Bag bag;
   bag.open(path, rosbag::bagmode::Write);
@@ -196,7 +196,7 @@ TEST(Bag, WhatStandsBeforeADamagedFrameIsGiven) {
   EXPECT_EQ(source->Read(std::chrono::seconds(10)).status, ReadStatus::kEnd);
 }
 
-// Its stamps count from 1970 on.
+// Its time stamps count from 1970.
 TEST(Bag, AsALiveCameraBeginsAtOnce) {
   const test::TemporaryFolder folder;
   WriteBagOfStamps(folder / "x.bag", {1'305'031'102, 1'305'031'103});

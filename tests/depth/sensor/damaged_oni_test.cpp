@@ -1,4 +1,4 @@
-// What becomes of recordings that are damaged, foreign or hostile: one line, never more.
+// Damaged, foreign and hostile recordings give a one-line error.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -31,14 +31,14 @@ std::string Recording(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// As another program would have written it: without our seal, which would notice all damage, and
-// without what tells that it should be there.
+// Converts it to another program's file: without our seal, which would detect all damage, and
+// without the properties that require it.
 void Unseal(std::string* bytes) {
   for (const char* name : {kOniSealProperty, kOniCameraProperty})
     bytes->at(bytes->find(name)) = 'X';
 }
 
-// Frames read, or the error's text.
+// The number of frames read, or the error message.
 struct Outcome {
   int frames = 0;
   std::string error;
@@ -174,7 +174,7 @@ TEST(ForeignOni, OfAKilledRecorderPlaysAsFarAsItGoes) {
   EXPECT_EQ(outcome.error, "");
 }
 
-// A player in place of ours that ends as the script says.
+// A substitute player that ends as the script says.
 Outcome PlayWith(const std::string& script, milliseconds patience) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "reader");

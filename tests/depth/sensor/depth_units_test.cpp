@@ -20,7 +20,7 @@
 namespace ossa::depth {
 namespace {
 
-// A person in a room, with holes as sensors leave them.
+// A person in a room, with typical sensor holes.
 const DepthFrame& RoomFrame() {
   static const DepthFrame frame = [] {
     tests::CapsuleScene scene;
@@ -56,7 +56,7 @@ struct Case {
   const char* what;
   Change change;
   const char* option;
-  double off_mm;  // by which a distance may come back wrong
+  double off_mm;  // tolerance of converted distances
 };
 
 class DepthsOfOtherKinds : public testing::TestWithParam<Case> {};
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(DepthCensus, MillimetresAreNotSuspected) { EXPECT_FALSE(Judged(RoomFrame()).has_value()); }
 
-// As a renderer has them who has nothing to say of the background.
+// As written by a renderer without a background.
 TEST(DepthCensus, SaturatedNumbersAroundAPersonAreNoInvertedDepths) {
   for (const int farthest_mm : {2600, 4200, 6000}) {
     const auto suspicion = Judged(Changed([&](int mm) { return mm < farthest_mm ? mm : 65535; }));
@@ -123,7 +123,7 @@ TEST(DepthCensus, DepthsThatNoCameraSeesAreRefusedWithoutAnOption) {
   EXPECT_EQ(suspicion->option, "");
 }
 
-// As data sets of Kinect v2 depths have it whose makers used all 16 bits for 4.5 m.
+// As in data sets of Kinect v2 depths that use all 16 bits for 4.5 m.
 TEST(DepthCensus, DepthsStretchedTo16BitsAreRefused) {
   const auto suspicion = Judged(Changed([](int mm) { return std::min(mm * 65535 / 4500, 65535); }));
   ASSERT_TRUE(suspicion.has_value());
@@ -142,8 +142,8 @@ TEST(DepthCensus, TooLittleIsNotJudged) {
   EXPECT_FALSE(Judged(frame).has_value());
 }
 
-// A level camera a metre high sees of the floor less than a window before a wall 3 m away: what
-// bends is the corner.
+// A level camera at 1 m, with a wall 3 m away, sees less floor than a window: the curvature comes
+// from the corner.
 TEST(DepthCensus, TheCornerOfAnEmptyRoomIsNotSuspected) {
   for (const double noise_m : {0.0, 0.0005}) {
     for (const double wall_m : {2.6, 2.8, 3.0, 3.2}) {
@@ -157,7 +157,7 @@ TEST(DepthCensus, TheCornerOfAnEmptyRoomIsNotSuspected) {
   }
 }
 
-// As a simulator has it, exact: along rows the numbers change but where a box ends.
+// Noise-free, as from a simulator: values change along rows only at the edges of a box.
 TEST(DepthCensus, ABoxInAnExactRoomHasNoPlayersBits) {
   tests::CapsuleScene scene;
   scene.planes = {{{0.0, 1.0, 0.0}, 1.0}, {{0.0, 0.0, -1.0}, 3.0}};
@@ -166,7 +166,7 @@ TEST(DepthCensus, ABoxInAnExactRoomHasNoPlayersBits) {
   EXPECT_FALSE(suspicion) << suspicion->looks;
 }
 
-// A room from one place, as exact as it is or as noisy as a Kinect v1 sees it, 1.5 mm at a metre.
+// A room from one viewpoint, noise-free or with the noise of a Kinect v1, 1.5 mm at a metre.
 struct Place {
   double height_m, wall_m, tilt_rad, noise_m;
 };
@@ -191,7 +191,7 @@ std::pair<int, int> NearestAndFarthest(const DepthFrame& frame) {
   return {least, most};
 }
 
-// Each distance taken from this one.
+// Inverts distances: subtracts each from this value.
 DepthFrame TakenFrom(DepthFrame frame, int from_mm) {
   for (uint16_t& depth : frame.depth_mm) {
     if (depth > 0) depth = static_cast<uint16_t>(from_mm - depth);
@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(FromPlaces, TurnedRound,
                                          Place{1.8, 3.0, 0.6, 0.001}, Place{1.0, 7.0, 0.1, 0.0},
                                          Place{0.9, 5.5, 0.0, 0.001}));
 
-// Somebody with no floor in view: cut out, or before a wall that is seen from straight ahead.
+// A person without a visible floor: cut out, or in front of a frontal wall.
 struct Person {
   double away_m, noise_m;
   int width;
@@ -276,8 +276,7 @@ TEST(DepthCensus, TwoPlayersBitsAreKnownOfPeopleCutOutToo) {
   EXPECT_EQ(suspicion->option, "--depth-scale 8000");
 }
 
-// What a camera sees of an upright cylinder of 10 cm radius at 2 m, or of the groove that a mould
-// of it is.
+// The depth of an upright cylinder of 10 cm radius at 2 m, or of its hollow mould.
 DepthFrame Cylinder(bool is_groove) {
   DepthFrame frame;
   frame.camera = KinectV1Camera(160, 120);
@@ -310,7 +309,7 @@ TEST(BodyBulge, AFlatBoardIsNeither) {
   EXPECT_FALSE(bulge.IsRound() || bulge.IsHollow() || bulge.IsEnough());
 }
 
-// As of somebody who stands still far away: one stretch, by chance, seen again and again.
+// As for a distant stationary person: the same accidental stretch in every image.
 TEST(BodyBulge, OneHollowStretchInEachOfManyImagesTellsNothing) {
   const DepthFrame mould = Cylinder(true);
   DepthFrame board = mould;
@@ -322,7 +321,7 @@ TEST(BodyBulge, OneHollowStretchInEachOfManyImagesTellsNothing) {
   EXPECT_FALSE(bulge.IsHollow());
 }
 
-// As of somebody who steps into the image: at first it shows a hollow edge of a sleeve and no more.
+// As for a person entering the image: at first only a hollow edge of a sleeve is visible.
 TEST(DepthCensus, AHollowThingInARoomThatBendsTheRightWayIsNotSuspected) {
   tests::CapsuleScene scene;
   scene.planes = {{Eigen::Vector3d::UnitY(), 1.2}};

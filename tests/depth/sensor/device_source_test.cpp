@@ -1,4 +1,4 @@
-// OpenNI2 devices, through the virtual one: what a live camera does and can do to its reader.
+// OpenNI2 devices, using the virtual one: behaviour and failures of a live camera.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sys/wait.h>
@@ -34,7 +34,7 @@ std::string Uri(const TemporaryFolder& folder, const std::string& options = "") 
   return "openni:ossa://" + folder.path().string() + options;
 }
 
-// A busy machine may keep a frame waiting for seconds; a minute without one is a failure.
+// Busy machines may delay a frame by seconds; a minute without one is a failure.
 ReadResult NextFrame(FrameSource& source) {
   const auto deadline = Clock::now() + std::chrono::minutes(1);
   ReadResult result;
@@ -44,7 +44,7 @@ ReadResult NextFrame(FrameSource& source) {
   return result;
 }
 
-// The frame of the folder that this is; -1 if of none.
+// The folder index of this frame; -1 if it is none of them.
 int NumberOf(const DepthFrame& frame, int count) {
   for (int i = 0; i < count; ++i) {
     if (frame.depth_mm == ExampleFrame(i).depth_mm) return i;
@@ -52,7 +52,7 @@ int NumberOf(const DepthFrame& frame, int count) {
   return -1;
 }
 
-// Held by what is older than the drivers, which the program's end destroys first.
+// Held by an object older than the drivers, which are destroyed first at program exit.
 std::unique_ptr<FrameSource> g_held_to_the_end;
 struct LooksAtTheEnd {
   ~LooksAtTheEnd() {
@@ -77,7 +77,7 @@ TEST(DeviceDeathTest, EndsBeforeItsDriverDoesWhoeverHoldsIt) {
   EXPECT_EXIT(hold(), testing::ExitedWithCode(0), "");
 }
 
-// OpenNI2 takes it for a device that plays without end.
+// OpenNI2 would play it as a device, without end.
 TEST(Device, IsNoneWhereTheUriIsARecording) {
   const TemporaryFolder folder;
   {
@@ -123,7 +123,7 @@ TEST(Device, TellsItsExactCamera) {
   EXPECT_EQ(OpenSource(Uri(folder), options)->camera(), (Camera{32, 24, 1, 2, 3, 4}));
 }
 
-// What plays as a device may be a recording of mirrored images.
+// A recording of mirrored images may be played as a device.
 TEST(Device, WhoseImagesAreMirroredShowsThemAsTheSensorLooks) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
@@ -163,8 +163,8 @@ TEST(Device, ASlowReaderGetsTheNewestFrameAndTheNumberLost) {
   WriteExampleFolder(folder.path(), kFrames);
   const auto source = OpenSource(Uri(folder, "?loop=1&fps=100"));
   int before = NumberOf(NextFrame(*source).frame, kFrames);
-  // 200 ms are 20 frames, and a queue would never lose one. On a busy machine the camera itself may
-  // stand still for so long: then once more.
+  // 200 ms are 20 frames, of which a queue would lose none. On a busy machine the camera itself may
+  // stall for as long: then try again.
   int64_t dropped = 0;
   for (int attempt = 0; attempt < 20 && dropped <= 10; ++attempt) {
     std::this_thread::sleep_for(milliseconds(200));
@@ -251,7 +251,7 @@ TEST(Device, AFrameItCannotReadIsADroppedFrame) {
   }
 }
 
-// Its stream has the size it began with: what comes to play next in the same place has another.
+// A stream's size is fixed: a later recording at the same path may have another.
 TEST(Device, FramesOfAnotherSizeThanItsStreamsAreNotDelivered) {
   const TemporaryFolder folder;
   for (const auto& [name, width] : {std::pair("large", 32), {"small", 16}}) {
@@ -301,7 +301,7 @@ TEST(Device, TheFirstIsNotTakenForAnotherAfterItWasUnplugged) {
   }
 }
 
-// OpenNI2 loads its drivers once it is in their folder.
+// OpenNI2 changes to its drivers' folder before loading them.
 TEST(Device, OfARelativePathIsWhereTheProgramWasStarted) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "clip");
@@ -328,8 +328,8 @@ TEST(Device, TheFirstGoesOnAfterItWasUnplugged) {
   EXPECT_GE(dropped, 8);
 }
 
-// Does it on a thread of which nothing is left afterwards: its stack is larger than all that the C
-// library keeps of ended threads, and than that of the thread before, whose place it cannot take.
+// Runs the task on a thread that is completely released afterwards: its stack is larger than
+// glibc's cache of stacks and than that of the previous thread, so it cannot reuse memory.
 void OnAThreadThatEnds(std::function<void()> task) {
   static size_t stack = size_t{256} << 20;  // bytes
   stack += size_t{16} << 20;
@@ -346,8 +346,8 @@ void OnAThreadThatEnds(std::function<void()> task) {
   pthread_attr_destroy(&attributes);
 }
 
-// OpenNI2 asks of every thread that ever called it whether it is alive, which glibc has no answer
-// for once it is not: a program that opens its camera on a thread of its own, twice, crashed.
+// OpenNI2 checks whether every thread that ever called it is alive, which crashes in glibc for
+// ended threads: as in a program that opens its camera twice, each time on a new thread.
 TEST(Device, ThreadsThatUsedItMayEnd) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 30);
@@ -366,7 +366,7 @@ TEST(Device, ThreadsThatUsedItMayEnd) {
   OnAThreadThatEnds([&] { source.reset(); });
 }
 
-// Python's look for Ctrl-C says nothing on another thread.
+// Python's check for Ctrl-C has no effect on other threads.
 TEST(Device, WhoWaitsForItIsAskedOnTheirOwnThread) {
   SourceOptions options;
   options.device_wait = std::chrono::minutes(1);
@@ -379,7 +379,7 @@ TEST(Device, WhoWaitsForItIsAskedOnTheirOwnThread) {
   EXPECT_EQ(asked, std::vector<std::thread::id>(2, std::this_thread::get_id()));
 }
 
-// A process forked meanwhile has the sources and none of the threads.
+// A forked process has the sources but none of the threads.
 TEST(LastingThread, InAForkedProcessWorkIsDoneByWhoeverAsks) {
   const BorrowedThread thread;
   int done = 0;

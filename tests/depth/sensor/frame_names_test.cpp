@@ -46,7 +46,7 @@ TEST_P(NamesOfFrames, SayWhatTheyCan) {
   }
 }
 
-// A 10 Hz clip with a gap of 2 s, in the clocks that recorders have.
+// A 10 Hz clip with a gap of 2 s, with the clocks of various recorders.
 INSTANTIATE_TEST_SUITE_P(
     AllClocks, NamesOfFrames,
     testing::Values(

@@ -7,7 +7,7 @@
 namespace ossa::depth {
 namespace {
 
-// Shares of a sensor of 1024 pixels: centre, focal lengths, then the lens.
+// Relative to a sensor of 1024 pixels: centre, focal lengths, then the distortion.
 std::string Calibration(const std::string& lens, const std::string& more = "") {
   return R"({"CalibrationInformation":{"Cameras":[)"
          R"({"Purpose":"CALIBRATION_CameraPurposePhotoVideo"},)"
@@ -37,7 +37,7 @@ TEST(K4aCalibration, WithoutALensEveryPixelStaysButWhatTheRadiusLeavesOut) {
   EXPECT_EQ(map[0], -1);
 }
 
-// What lies at r is seen at r (1 + k1 r^2): far out by more.
+// r is mapped to r (1 + k1 r^2): larger displacements at larger r.
 TEST(K4aCalibration, ALensIsUndone) {
   const LensCamera lens = ReadK4aCalibration(Calibration("-0.2,0,0,0,0,0,0,0,0,0"), 640, 576);
   const auto map = UndistortionMap(lens);

@@ -1,6 +1,6 @@
-// kinect_probe URI: opens a Kinect through OpenNI2 alone, as a program that knows nothing of ossa
-// but the numbers of the driver's properties would, and prints what it is told. A program of its
-// own because the tests run it with fakenect's libfreenect in place of the real one.
+// kinect_probe URI: opens a Kinect with OpenNI2 only, as a program that knows nothing of ossa
+// except the property numbers of its driver, and prints what it gets. A separate program, because
+// tests run it with fakenect's libfreenect instead of the real one.
 #include <OpenNI.h>
 
 #include <array>
@@ -34,7 +34,7 @@ bool PrintProperties(openni::Device& device) {
   return true;
 }
 
-// Whose view the depth image is, and the focal length in it, as the stream's angle of view has it.
+// Prints whether the depth image is registered, and its focal length by the stream's angle of view.
 void PrintView(const openni::Device& device, const openni::VideoStream& stream) {
   constexpr double kHalfWidth_px = 320.0;
   std::printf("registered %d, f %.0f\n",
@@ -42,7 +42,7 @@ void PrintView(const openni::Device& device, const openni::VideoStream& stream) 
               kHalfWidth_px / std::tan(stream.getHorizontalFieldOfView() / 2));
 }
 
-// Of both cameras in turn.
+// Prints the views of both cameras.
 bool PrintViews(openni::Device& device, openni::VideoStream& stream) {
   stream.stop();
   PrintView(device, stream);
@@ -54,7 +54,7 @@ bool PrintViews(openni::Device& device, openni::VideoStream& stream) {
   return true;
 }
 
-// Returns when a frame has come: fakenect knows the accelerometer only as it plays.
+// Waits for a frame: fakenect provides the accelerometer only while it plays.
 bool PrintStream(openni::Device& device, openni::VideoStream& stream) {
   openni::VideoStream* streams = &stream;
   int ready = -1;

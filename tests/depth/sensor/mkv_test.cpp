@@ -1,4 +1,4 @@
-// Recordings of an Azure Kinect's kind that are cut, or whose recorder was killed.
+// Truncated Azure Kinect recordings, and ones whose recorder was killed.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -38,7 +38,7 @@ void Record(const std::filesystem::path& path, const std::vector<DepthFrame>& fr
   recorder.Finish();
 }
 
-// Frames that each strain one rule of the codec; OpenNI2's own player is the oracle.
+// Frames that each exercise one rule of the codec; OpenNI2's own player is the reference.
 std::vector<DepthFrame> HardFrames() {
   constexpr int kWidth = 640;
   constexpr int kHeight = 480;
@@ -143,7 +143,7 @@ TEST(OniRecorder, WritesBorrowedImagesWhateverTheirRowsLieApart) {
   }
 }
 
-// Noise takes three bytes a pixel, and the table comes on top: too much at the largest size alone.
+// Noise takes three bytes per pixel plus the table: too much only at the largest size.
 TEST(OniRecorder, RefusesAFrameThatComesOutLargerThanAPlayerHolds) {
   const TemporaryFolder folder;
   const auto noise = [](int width, int height) {
@@ -167,7 +167,7 @@ TEST(OniRecorder, RefusesFramesNoPlayerHolds) {
   EXPECT_THROW(OniRecorder(folder / "no/folder/x.oni", KinectV1Camera(4, 3)), InputError);
 }
 
-// How many frames are kept of so many; none when there is no room even before the first.
+// Number of kept frames; none if there is no space even before the first.
 int64_t RecordWithin(uint64_t bytes, const std::filesystem::path& path, int frames) {
   const test::FullDisk disk(bytes);
   std::optional<OniRecorder> recorder;
@@ -181,8 +181,8 @@ int64_t RecordWithin(uint64_t bytes, const std::filesystem::path& path, int fram
   }
 }
 
-// Whatever does not fit, a frame, its end or the file's: what is kept is the recording of as many
-// frames as there is room for, byte for byte.
+// Whatever does not fit, a frame, its end or the file's end: the result is byte for byte a
+// recording of the frames that fit.
 TEST(OniRecorder, OnAFullDiskKeepsWhatFits) {
   const TemporaryFolder folder;
   constexpr int kFrames = 9;

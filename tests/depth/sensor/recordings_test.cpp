@@ -1,4 +1,4 @@
-// Recordings of others' programs, read through the readers' libraries.
+// Recordings of other programs, read by the readers' libraries.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A camera whose plug is pulled again and again, for some seconds: nothing may be lost but the
-// frames of the gaps, and nothing may grow. The long form is tests/bench/soak.
+// A camera that is repeatedly unplugged, for some seconds: only frames of the gaps may be lost, and
+// memory must not grow. The long form is tests/bench/soak.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -91,15 +91,15 @@ TEST(Soak, TwentyUnplugsLoseOnlyTheirGapsAndNoMemory) {
   ASSERT_EQ(soak.gaps.size(), kGaps);
   EXPECT_EQ(soak.foreign, 0);
   EXPECT_EQ(soak.last_index, soak.frames + soak.dropped - 1) << "each frame is given or counted";
-  // A busy machine loses frames between the gaps as well; half must come through.
+  // Busy machines lose frames between the gaps as well; half must arrive.
   EXPECT_GE(soak.frames, kGaps * kFramesAPlug / 2);
-  // The requirement: back within a second of being plugged in. Of the middle one, as a busy machine
-  // may make any single one wait.
+  // The requirement: frames within a second of reconnection. For the median, as a busy machine may
+  // delay any single one.
   std::nth_element(soak.gaps.begin(), soak.gaps.begin() + kGaps / 2, soak.gaps.end());
   EXPECT_LE(soak.gaps[kGaps / 2], kUnplugged + milliseconds(1000));
-  // OpenNI2 keeps some 1.3 kB of every device that went away, and frames may be under way when the
-  // heap is read, up to four on a busy machine: the least of five readings tells. A leak of ours
-  // would be of a frame at every gap, or of a thread, at least as much.
+  // OpenNI2 keeps about 1.3 kB of every disconnected device, and up to four frames may be in flight
+  // when the heap is measured: the smallest of five readings counts. A leak of ours would be at
+  // least a frame or a thread per gap.
   constexpr double kFrameBytes = 2.0 * kWidth * kHeight;
   const auto least_until = [&](size_t gap) {
     const auto end = soak.heap.begin() + static_cast<std::ptrdiff_t>(gap);

@@ -1,4 +1,4 @@
-// Recordings of ours without their end, and what tells them from damaged ones.
+// Our unfinished recordings, and what distinguishes them from damaged ones.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -43,7 +43,7 @@ size_t HeadOf(const std::string& bytes) {
   return ParseOniPreamble({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}).size;
 }
 
-// Reads what it can; every frame must be the recording's own. Of what could not, the reason.
+// The frames that can be read, each of which must equal the original, and the first error.
 struct Outcome {
   int frames = 0;
   int notes = 0;
@@ -80,7 +80,7 @@ TEST(UnfinishedOni, OfAKilledRecorderIsReadUnderItsTemporaryName) {
   EXPECT_EQ(outcome.notes, 1);
 }
 
-// Everywhere: what is whole is read, with a note; where nothing is, a line says so.
+// At every position: complete frames are read, with a note; without any, a one-line error.
 TEST(UnfinishedOni, CutAnywhereHasItsWholeFrames) {
   const TemporaryFolder folder;
   const std::string whole = Recording(folder / "x.oni");
@@ -113,7 +113,7 @@ TEST(UnfinishedOni, WhoseRecorderWasKilledBeforeTheSealIsWhole) {
   EXPECT_EQ(ReadFrames(folder / "x.oni").frames, kFrames);
 }
 
-// The frame after it is read: it may be all that somebody has.
+// The following frames are still read: they may be all that the user has.
 TEST(UnfinishedOni, AFrameWithDamagedBytesIsNamedAndReadingGoesOn) {
   const TemporaryFolder folder;
   std::string bytes = Recording(folder / "x.oni");
@@ -127,7 +127,7 @@ TEST(UnfinishedOni, AFrameWithDamagedBytesIsNamedAndReadingGoesOn) {
   EXPECT_EQ(source->Read(milliseconds(0)).frame.depth_mm, ExampleFrame(1, 8, 6).depth_mm);
 }
 
-// A damaged length must not pass for a file that was cut, nor anything else for another's file.
+// A damaged length must not look like truncation, nor other damage like a foreign file.
 TEST(SealedOni, WithAnyBitOfItFlippedIsRefused) {
   const TemporaryFolder folder;
   const std::string whole = Recording(folder / "x.oni");

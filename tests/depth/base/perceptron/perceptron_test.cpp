@@ -39,7 +39,7 @@ TEST(Perceptron, RectifiesEveryLayerButTheLast) {
   EXPECT_FLOAT_EQ(said(1e6F), -5.5F);  // no more than five standard deviations count
 }
 
-// What `best` reads of a recorded example must not depend on what is run beside it.
+// Results for an example must not depend on the others in its batch.
 TEST(Perceptron, RunsRowsTogetherAsOneByOne) {
   std::srand(5);
   const Perceptron perceptron = test::RandomPerceptron({40, 70, 9});

@@ -37,7 +37,7 @@ TEST(ComputeMiddle, WeighsPointsButNoneByNothing) {
   EXPECT_NEAR(ComputeMiddle(points_m, weights, 0.05).x(), 0.05, 1e-12);
 }
 
-// The network says what EncodeOffset asks of it: then the points are where they should be.
+// The network outputs the targets of EncodeOffset: then points are at their true positions.
 template <typename Network>
 void ExpectMovedTo(double tolerance_m) {
   const ViewFrame frame = *MakeViewFrame(kMiddle_m);

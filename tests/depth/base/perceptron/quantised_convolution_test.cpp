@@ -21,7 +21,7 @@ Convolution RandomLayer(int size, int stride, Eigen::Index inputs, Eigen::Index 
           Eigen::RowVectorXf::Random(outputs)};
 }
 
-// By its definition, one product after the other.
+// The definition, as a scalar loop.
 float OneByOne(const Convolution& layer, const FeatureMap& map, int row, int column,
                Eigen::Index output) {
   float sum = layer.bias[output];
@@ -39,7 +39,8 @@ float OneByOne(const Convolution& layer, const FeatureMap& map, int row, int col
   return sum;
 }
 
-// But for the rounding of features to one in 2^12 of the largest, and of weights about as finely.
+// Up to the quantisation of features to one in 2^12 of the largest, and of weights with similar
+// resolution.
 void ExpectDefinition(const Convolution& layer, const FeatureMap& map) {
   constexpr float kRounding = 5e-4F;  // of numbers up to 1, each of two
   const float most = kRounding * std::sqrt(static_cast<float>(layer.weight.rows())) *
@@ -71,8 +72,8 @@ TEST(QuantisedConvolution, IsItsDefinitionAtBordersAndAtAnyStride) {
   }
 }
 
-// Where windows are alike one result serves them all: nobody, but for one cell, and what lies
-// beyond the border, which is not like nobody.
+// Equal windows share one result: an empty map except for one cell, and the padding, which differs
+// from empty cells.
 TEST(QuantisedConvolution, IsItsDefinitionWhereMostCellsAreAlike) {
   for (const int stride : {1, 2}) {
     const Convolution layer = RandomLayer(3, stride, 4, 8);
@@ -84,7 +85,7 @@ TEST(QuantisedConvolution, IsItsDefinitionWhereMostCellsAreAlike) {
   }
 }
 
-// The largest sums that there can be: they would turn negative, were there one bit less.
+// The largest possible sums: with one bit less they would overflow.
 TEST(QuantisedConvolution, ManyLoudFeaturesAddUp) {
   constexpr Eigen::Index kInputs = 4000;
   const Convolution layer{1, 1, RowMatrix::Ones(kInputs, 1), Eigen::RowVectorXf::Zero(1)};
@@ -116,7 +117,7 @@ TEST(QuantisedConvolution, IsNotFiniteWhereAFeatureIsNot) {
   }
 }
 
-// One to thirteen windows: any number of them beside the six and two that are summed at a time.
+// One to thirteen windows: all remainders of the six and two windows that are summed together.
 TEST(WindowSums, AreTheSameOneByOne) {
   std::mt19937 draw(5);
   std::uniform_int_distribution<int> number(-4000, 4000);

@@ -15,8 +15,7 @@ namespace {
 
 using test::RandomPerceptron;
 
-// But for the rounding of what weights are taken times: to one in 2^15 of the largest, or nearly
-// so.
+// Up to the quantisation of activations to about one in 2^15 of the largest.
 void ExpectAboutEqual(const Eigen::RowVectorXf& said, const Eigen::RowVectorXf& wanted) {
   EXPECT_LT((said - wanted).norm(), 1e-4F * (1.0F + wanted.norm()));
 }
@@ -36,7 +35,7 @@ TEST(QuantisedPerceptron, SaysWhatThePerceptronSays) {
   }
 }
 
-// 103 and 130 units: more than three lines of the cache hold, and than four.
+// 103 and 130 units: more than three and four cache lines of weights.
 TEST(QuantisedPerceptron, OnesWhoseWeightsLieTogetherSayWhatEachSaysAlone) {
   std::srand(8);
   const std::vector<Perceptron> perceptrons = {RandomPerceptron({40, 103, 103, 3}),
@@ -54,7 +53,8 @@ TEST(QuantisedPerceptron, OnesWhoseWeightsLieTogetherSayWhatEachSaysAlone) {
   }
 }
 
-// Twice as many inputs as may say their most, all of one sign: the sum would turn negative.
+// Twice as many inputs as can be at their maximum with one sign: without limits the sum would
+// overflow.
 TEST(QuantisedPerceptron, ManyLoudInputsAddUp) {
   constexpr Eigen::Index kInputs = 1100;
   Perceptron perceptron = test::SilentPerceptron({kInputs, 1});
@@ -65,7 +65,7 @@ TEST(QuantisedPerceptron, ManyLoudInputsAddUp) {
   }
 }
 
-// An input that says a thousandth of what another does still counts.
+// An input a thousandth as large as another still counts.
 TEST(QuantisedPerceptron, QuietInputsCountBesideALoudOne) {
   Perceptron perceptron = test::SilentPerceptron({2, 2});
   perceptron.layers[0].weight = RoundToBytes(RowMatrix::Identity(2, 2)).ToWeights();
