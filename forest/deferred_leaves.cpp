@@ -15,15 +15,15 @@
 namespace ossa::forest {
 namespace {
 
-// Images that get tables of their own before those of all leaves are made: a command that looks at
-// a still or two is done before, and a camera's are past in a quarter of a second.
+// Number of images with their own tables before all tables are built: commands on a few stills
+// finish sooner, and a camera delivers as many in a quarter of a second.
 constexpr int kFewImages = 8;  // by hand
 
-// Of setpriority(2), below the process's own: a tenth of a processor that somebody else could use
-// whole. By hand: with less, who ends would wait long for what the thread is at.
+// Nice value relative to the process: the thread gets about a tenth of a contended processor. By
+// hand: with less, the destructor would wait long for its current step.
 constexpr int kLowerPriority = 10;
 
-// Counts somebody who reads, without a lock that a forked process could inherit locked.
+// Counts readers without a lock, which a forked process could inherit locked.
 class Reader {
  public:
   explicit Reader(std::atomic<int>& readers) : readers_(readers) { ++readers_; }
@@ -48,13 +48,13 @@ DeferredLeaves::DeferredLeaves(std::unique_ptr<const LeafTableMaker> maker,
 DeferredLeaves::~DeferredLeaves() {
   stop_ = true;
   if (getpid() != process_) {
-    if (thread_.joinable()) thread_.detach();  // it stayed behind in the other process
+    if (thread_.joinable()) thread_.detach();  // it exists only in the parent process
     return;
   }
   if (thread_.joinable()) thread_.join();
   if (once_whole_ == nullptr || found_ < kFewImages) return;
   stop_ = false;
-  for (OneTree& tree : trees_) {  // room for what is made
+  for (OneTree& tree : trees_) {  // allocate the results
     tree.gathered.reset();
     if (!tree.is_whole) tree.tables = {};
   }
@@ -62,15 +62,15 @@ DeferredLeaves::~DeferredLeaves() {
   MakeAll();
 }
 
-// Of `leaf` and `at` the first is one of this tree's. Who finds another thread gathering does not
-// wait for it, which may have stayed behind in another process, but has rows of its own.
+// The first element of `leaf` and `at` belongs to this tree. If another thread is gathering, this
+// one does not wait, because after a fork that thread may not exist; it makes its own rows.
 void DeferredLeaves::Gather(OneTree* tree, std::span<const int32_t> leaf, std::span<int32_t> at,
                             LeafRows* rows) {
   const LeafSource& source = *tree->source;
   const size_t samples = (leaf.size() + trees_.size() - 1) / trees_.size();
   std::shared_ptr<GatheredLeaves> gathered;
   const std::unique_lock lock(tree->mutex, std::try_to_lock);
-  // Taken out until all is well: memory may be short.
+  // Moved out until success: allocation may fail.
   if (lock.owns_lock()) gathered = std::move(tree->gathered);
   if (gathered == nullptr || !gathered->HasRoomFor(samples)) {
     gathered = std::make_shared<GatheredLeaves>(source.order.size(), samples);
@@ -106,11 +106,12 @@ void DeferredLeaves::StartMakingAll() {
   try {
     thread_ = std::thread([this] { MakeBesideOthers(); });
   } catch (const std::system_error&) {
-    // Without a thread images go on having tables made of what they meet.
+    // Without a thread, tables are still made per image.
   }
 }
 
-// On one processor: the others follow people. On Linux 0 is this thread, not its process.
+// On one processor only: the others are needed for tracking. On Linux 0 means this thread, not the
+// process.
 void DeferredLeaves::MakeBesideOthers() {
   setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kLowerPriority);
   oneapi::tbb::task_arena arena(1);
@@ -124,7 +125,7 @@ void DeferredLeaves::MakeAll() try {
   if (once_whole_) once_whole_();
   once_whole_ = nullptr;
 } catch (const std::exception&) {
-  // Where memory is short images go on having tables made of what they meet.
+  // Without enough memory, tables are still made per image.
 }
 
 bool DeferredLeaves::MakeTree(OneTree* tree) {
@@ -135,7 +136,7 @@ bool DeferredLeaves::MakeTree(OneTree* tree) {
   while (tree->readers > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   tree->source.reset();
   tree->gathered.reset();
-  ReturnFreedMemory();  // before the next tree's tables are made
+  ReturnFreedMemory();  // before the next tree's tables are allocated
   return true;
 }
 

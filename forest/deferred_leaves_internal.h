@@ -14,45 +14,44 @@
 
 namespace ossa::forest {
 
-/// Where the rows of an image's leaves are.
+/// Locations of the table rows of an image's leaves.
 struct LeafRows {
-  std::vector<LeafView> tables;  // one a tree
-  std::span<const int32_t> at;   // sample × tree: the leaf's place in the tree's tables
-  std::vector<int32_t> own_at;   // what `at` reads, where places are no leaves' numbers
-  std::vector<std::shared_ptr<const GatheredLeaves>> held;  // which are read
+  std::vector<LeafView> tables;  // one per tree
+  std::span<const int32_t> at;   // sample × tree: row index of the leaf in the tree's tables
+  std::vector<int32_t> own_at;   // storage of `at`, if indices differ from leaf numbers
+  std::vector<std::shared_ptr<const GatheredLeaves>> held;  // keeps the tables alive
 };
 
-/// Tables of leaves that are made while the model already runs: those of all leaves take longer
-/// than all else of a start, and an image meets a leaf of fifty. Images first have tables made of
-/// the leaves that they meet; after a few a thread makes those of all, tree by tree, at times when
-/// nobody else wants the processor. Which of them an image got shows nowhere: rows are the same.
-/// Safe to share between threads; what a process inherits that is forked meanwhile works, without
-/// the thread.
+/// Leaf tables that are built while the model already runs: building those of all leaves would
+/// dominate start-up, and an image reaches one leaf of fifty. At first, tables are built for the
+/// leaves that an image reaches; after a few images a thread builds all, tree by tree, at low
+/// priority. Results do not depend on which tables are used: rows are identical. Thread-safe; works
+/// in a forked process, without the thread.
 class DeferredLeaves {
  public:
   DeferredLeaves(std::unique_ptr<const LeafTableMaker> maker, std::vector<LeafSource> sources);
-  /// Where somebody is to be called once all is there, makes first what the thread has left.
+  /// If a callback is pending, first builds the remaining tables.
   ~DeferredLeaves();
   DeferredLeaves(const DeferredLeaves&) = delete;
   DeferredLeaves& operator=(const DeferredLeaves&) = delete;
 
-  /// The rows of leaves where walks ended; sample × tree. What comes back reads `leaf`.
+  /// The rows of the leaves reached; sample × tree. The result refers to `leaf`.
   LeafRows Find(std::span<const int32_t> leaf);
 
-  /// Has `then` called as soon as all tables are there, by the thread that made them. Precondition:
-  /// nothing was found yet.
+  /// Calls `then` when all tables are complete, on the thread that built them. Precondition: Find
+  /// has not been called.
   void OnceWhole(std::function<void()> then) { once_whole_ = std::move(then); }
 
-  /// Precondition: they are there.
+  /// Precondition: the tables are complete.
   const LeafTables& whole(size_t tree) const { return trees_[tree].tables; }
 
  private:
   struct OneTree {
-    std::atomic<bool> is_whole = false;  // `tables` stay as they are from then on
+    std::atomic<bool> is_whole = false;  // then `tables` are immutable
     LeafTables tables;
-    std::atomic<int> readers = 0;  // without which what is below may go
+    std::atomic<int> readers = 0;  // the members below may be freed if there are none
     std::unique_ptr<const LeafSource> source;
-    std::mutex mutex;  // of `gathered`
+    std::mutex mutex;  // guards `gathered`
     std::shared_ptr<GatheredLeaves> gathered;
   };
 
@@ -64,11 +63,11 @@ class DeferredLeaves {
 
   std::unique_ptr<const LeafTableMaker> maker_;
   std::vector<OneTree> trees_;
-  std::function<void()> once_whole_;  // null: it was called
-  std::atomic<int> found_ = 0;        // images
+  std::function<void()> once_whole_;  // null: already called
+  std::atomic<int> found_ = 0;        // images so far
   std::atomic<bool> stop_ = false;
   std::thread thread_;
-  const pid_t process_;  // that the thread runs in
+  const pid_t process_;  // process of the thread
 };
 
 }  // namespace ossa::forest

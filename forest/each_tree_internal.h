@@ -8,8 +8,8 @@
 
 namespace ossa::forest {
 
-/// Calls body(t) for each of so many trees, side by side. Where several throw, what the first of
-/// them throws comes out: the same on every machine.
+/// Calls body(t) for each tree, in parallel. If several throw, the exception of the first tree is
+/// rethrown: the same on every machine.
 inline void ForEachTree(size_t trees, const std::function<void(size_t)>& body) {
   std::vector<std::exception_ptr> thrown(trees);
   ParallelFor(trees, [&](size_t t) {

@@ -1,8 +1,8 @@
 // Linear algebra of a factor model x_t = mean_t + L_t · z + noise, z ~ N(0, I), with measurements
-// y_t of variance v_t: the posterior precision of z is P = I + Σ L_tᵀ L_t / v_t = Uᵀ U. Solving
-// Uᵀ [X, q] = [Lᵀ, Σ L_tᵀ (y_t - mean_t) / v_t] once gives every target's posterior: covariance
-// X_tᵀ X_t and offset X_tᵀ q. A few dozen factors are too few for a library's matrix products to
-// pay, and these sums have one order on every machine.
+// y_t of variance v_t: the posterior precision of z is P = I + Σ L_tᵀ L_t / v_t = Uᵀ U. Solving Uᵀ
+// [X, q] = [Lᵀ, Σ L_tᵀ (y_t - mean_t) / v_t] once gives every target's posterior: covariance X_tᵀ
+// X_t and offset X_tᵀ q. With a few dozen factors a library's matrix products are not faster, and
+// these sums have the same order on every machine.
 #include "forest/factor_model_internal.h"
 
 #include <Eigen/Dense>
@@ -17,9 +17,9 @@ namespace {
 
 // Constants: sizes of vector registers; the spread by hand.
 
-constexpr size_t kWide = 4;  // numbers side by side; sums over them are never taken
+constexpr size_t kWide = 4;  // values per vector; never summed across lanes
 using Wide = double __attribute__((vector_size(kWide * sizeof(double))));
-constexpr double kPlaceSpread_m = 2;  // of the common place: free
+constexpr double kPlaceSpread_m = 2;  // standard deviation of the common position: nearly free
 
 size_t FilledUp(size_t count) { return (count + kWide - 1) / kWide * kWide; }
 
@@ -30,7 +30,7 @@ size_t FilledUp(size_t count) { return (count + kWide - 1) / kWide * kWide; }
   std::memcpy(to, &from, sizeof(Wide));
 }
 
-// precision += weight · LᵀL of the three rows of L, from the diagonal on.
+// precision += weight · LᵀL for the three rows of L, from the diagonal on.
 OSSA_CPU_DISPATCH void AddTarget(const double* rows, double weight, size_t factors, size_t stride,
                                  double* precision) {
   for (size_t i = 0; i < factors; ++i) {
@@ -49,7 +49,7 @@ OSSA_CPU_DISPATCH void AddTarget(const double* rows, double weight, size_t facto
   }
 }
 
-// Cholesky: the upper half of P becomes U, but 1 / u on the diagonal.
+// Cholesky factorisation: the upper half of P becomes U, with 1 / u on the diagonal.
 OSSA_CPU_DISPATCH void Factorise(size_t factors, size_t stride, double* p) {
   for (size_t k = 0; k < factors; ++k) {
     double* row = p + k * stride;
@@ -69,7 +69,7 @@ OSSA_CPU_DISPATCH void Factorise(size_t factors, size_t stride, double* p) {
   }
 }
 
-// kColumns · kWide columns of the right sides b become those of the solution of Uᵀ x = b.
+// Replaces kColumns · kWide right-hand sides b by the solution of Uᵀ x = b.
 template <size_t kColumns>
 [[gnu::always_inline]] inline void SolveColumns(const double* u, size_t factors, size_t stride,
                                                 double* b, size_t b_stride) {
@@ -102,7 +102,7 @@ OSSA_CPU_DISPATCH void Solve(const double* u, size_t factors, size_t stride, dou
   }
 }
 
-// Of kWide targets: the six different numbers of XᵀX, then the three of Xᵀq.
+// For kWide targets: the six distinct elements of XᵀX, then the three of Xᵀq.
 constexpr size_t kMoments = 9;
 struct Moments {
   double value[kMoments][kWide];
@@ -125,9 +125,9 @@ OSSA_CPU_DISPATCH void SumMoments(const double* x, const double* q, size_t facto
   std::memcpy(out->value, sum, sizeof(sum));
 }
 
-// The posterior of a target without what was measured of it.
-void TakeOut(const Site& site, const Eigen::Vector3d& mean_m, Eigen::Matrix3d* covariance,
-             Eigen::Vector3d* offset_m) {
+// Removes a target's own measurement from its posterior.
+void RemoveOwnSite(const Site& site, const Eigen::Vector3d& mean_m, Eigen::Matrix3d* covariance,
+                   Eigen::Vector3d* offset_m) {
   const double weight = 1.0 / site.variance_m2;
   const Eigen::Matrix3d inverse = covariance->inverse();
   *covariance = (inverse - weight * Eigen::Matrix3d::Identity()).inverse();
@@ -209,7 +209,7 @@ std::vector<Prediction> FactorModel::Predict(const std::vector<Site>& sites) con
     Eigen::Matrix3d covariance;
     covariance << of(0), of(1), of(2), of(1), of(3), of(4), of(2), of(4), of(5);
     Eigen::Vector3d offset_m(of(6), of(7), of(8));
-    if (sites[t].variance_m2 > 0) TakeOut(sites[t], mean_m_[t], &covariance, &offset_m);
+    if (sites[t].variance_m2 > 0) RemoveOwnSite(sites[t], mean_m_[t], &covariance, &offset_m);
     predictions[t].predicted_m = mean_m_[t] + offset_m;
     predictions[t].covariance_m2 =
         0.5 * (covariance + covariance.transpose()) + variance_m2_[t] * Eigen::Matrix3d::Identity();

@@ -41,8 +41,8 @@ void CheckNames(const ForestData& data, const std::string& name) {
   if (data.background_mm > 32767) Refuse(name, "background depth: expected at most 32767 mm");
 }
 
-// Children come in pairs after their parent, each node has one parent, leaves are numbered in
-// order: then every walk from the root ends.
+// Checks that children are in pairs after their parent, each node has one parent, and leaves are
+// numbered in order: then every walk from the root terminates.
 void CheckTopology(const Tree& tree, const std::string& where) {
   if (tree.nodes.empty()) Refuse(where, "no nodes");
   size_t next_leaf = 0;
@@ -132,7 +132,7 @@ void CheckTarget(const ForestData& data, const ProposalTarget& target, const std
   CheckLogistic(target.apart, where);
 }
 
-// Of a vector or a matrix.
+// For vectors and matrices.
 template <typename Numbers>
 bool AllWithin(const Numbers& values, float low, float high) {
   return std::all_of(values.data(), values.data() + values.size(),

@@ -15,11 +15,10 @@
 namespace ossa::forest {
 namespace {
 
-// Version 2 added pose priors and the place confidences that rest on them; models of version 1 lack
-// them. Version 3 packs trees more tightly. Version 4 added the refinement, version 5 the
-// relabelling.
+// Version 2 added pose priors and the confidences that depend on them; version 3 packs trees more
+// compactly; version 4 added the refinement, version 5 the relabelling.
 constexpr ContainerFormat kModelFormat{{'o', 's', 's', 'a', 'f', 'r', 's', 't'}, 5, "forest model"};
-constexpr uint32_t kOldestVersion = 1;  // that is still read
+constexpr uint32_t kOldestVersion = 1;  // oldest readable version
 // Constants: of the format (zstd levels) and bounds against damaged files.
 
 constexpr int kCompressionLevel = 19;
@@ -79,7 +78,7 @@ void GetAgreement(PayloadReader* reader, ForestData* data) {
   }
 }
 
-// The numbers of a matrix as they lie.
+// The elements of a matrix in memory order.
 template <typename Matrix>
 std::vector<float> ToVector(const Matrix& numbers) {
   return {numbers.data(), numbers.data() + numbers.size()};
@@ -140,7 +139,7 @@ ProposalTarget GetTarget(PayloadReader* reader) {
   return target;
 }
 
-// Those of today's files side by side: they are most of what a file holds.
+// Reads the trees, in parallel for current files: they are most of a file.
 std::vector<Tree> GetTrees(PayloadReader* reader, uint32_t count, uint32_t version) {
   std::vector<Tree> trees;
   std::vector<PayloadReader> at;
@@ -181,7 +180,7 @@ ForestData ParseVersion(std::span<const std::byte> payload, const std::string& n
   return data;
 }
 
-// Each form is let go before the next but one is made: a model is some 60 MB in each of them.
+// Frees each representation early: a model takes some 60 MB in each of them.
 ForestModel Parse(std::vector<std::byte> compressed, const std::string& name, uint32_t version,
                   ModelUse use) {
   std::vector<std::byte> payload = Decompress(compressed, name, kModelFormat.what);

@@ -8,8 +8,8 @@
 
 namespace ossa::forest {
 
-/// What a file of today's version holds, not compressed: of a model with these trees, which need
-/// not be the data's.
+/// The uncompressed payload of a current file, for a model with these trees, which need not be the
+/// data's.
 std::vector<std::byte> PackForest(const ForestData& data, std::span<const Tree> trees);
 /// Throws InputError that names `name` and the field.
 ForestData ParseForest(std::span<const std::byte> payload, const std::string& name);

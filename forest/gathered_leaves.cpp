@@ -5,8 +5,8 @@
 namespace ossa::forest {
 namespace {
 
-// Of a tree's leaves, for which there is room: tables of a quarter take 8 MB, and a film of some
-// seconds meets fewer. By hand.
+// Capacity as a share of a tree's leaves, one in this many: tables of a quarter take 8 MB, and a
+// video of some seconds needs fewer. By hand.
 constexpr size_t kShareOfLeaves = 4;
 
 template <typename T>
@@ -34,12 +34,12 @@ void GatheredLeaves::Gather(const LeafTableMaker& maker, const LeafSource& sourc
   Append(maker.Make({source.entry_begin, source.entries}, met), met.size());
 }
 
-// Memory that is only reserved is nobody's until it is written to.
+// Reserved memory is not allocated by the system until it is written to.
 void GatheredLeaves::Append(const LeafTables& more, size_t count) {
   if (count_ == 0) {
     const size_t contexts = more.shares_of.size() / count;
     tables_.evidence.reserve(room_ * contexts);
-    tables_.shares.reserve(room_ * contexts);  // of a leaf at most one a context
+    tables_.shares.reserve(room_ * contexts);  // at most one per leaf and context
     tables_.first_shares.reserve(room_);
     tables_.shares_of.reserve(room_ * contexts);
   }

@@ -8,25 +8,26 @@
 
 namespace ossa::forest {
 
-/// What the tables of one tree's leaves are made of.
+/// The data from which the tables of a tree's leaves are built.
 struct LeafSource {
-  std::vector<int32_t> order;         // of each leaf, in the order of LinedTree: its number in Tree
+  std::vector<int32_t> order;         // per leaf, in the order of LinedTree: its number in Tree
   std::vector<uint32_t> entry_begin;  // as in Tree
   std::vector<uint16_t> entries;
 };
 
-/// Tables of those leaves of one tree that images met, in the order in which they did: an image
-/// makes rows for leaves alone that none before it met. Rows stay where they are, and may be read
-/// while more are gathered. One thread gathers at a time.
+/// Tables of the leaves of one tree that images have reached, in order of arrival: an image adds
+/// rows only for leaves that no earlier one reached. Rows are never moved and may be read while
+/// others are added. Only one thread may gather at a time.
 class GatheredLeaves {
  public:
-  /// With room for a share of the tree's leaves, and for an image of so many samples.
+  /// Allocates capacity for a share of the tree's leaves, and for an image of `samples` samples.
   GatheredLeaves(size_t leaves, size_t samples);
 
   bool HasRoomFor(size_t samples) const { return count_ + samples <= room_; }
 
-  /// Of `leaf`, where an image's samples ended, every `trees`th from the first on is one of this
-  /// tree; the same place of `at` receives where its rows are. Precondition: there is room.
+  /// Every `trees`th element of `leaf` (the leaves reached by an image's samples), starting with
+  /// the first, belongs to this tree; the same positions of `at` receive the row indices.
+  /// Precondition: there is capacity.
   void Gather(const LeafTableMaker& maker, const LeafSource& source, std::span<const int32_t> leaf,
               size_t trees, std::span<int32_t> at);
 
@@ -37,7 +38,7 @@ class GatheredLeaves {
   void Append(const LeafTables& more, size_t count);
 
   size_t room_, count_ = 0;     // of leaves
-  std::vector<int32_t> place_;  // of each leaf; -1: it has none
+  std::vector<int32_t> place_;  // row of each leaf; -1: none
   LeafTables tables_;
 };
 

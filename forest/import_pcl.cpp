@@ -13,7 +13,7 @@
 namespace ossa::forest {
 namespace {
 
-// Labels as PCL's people module numbers them. Class = label + 1: 0 is background here.
+// Labels in the order of PCL's people module. Class = label + 1: 0 is background here.
 constexpr std::array kPclNames = {
     "Lfoot", "Lleg",   "Lknee",  "Lthigh", "Rfoot",    "Rleg",   "Rknee", "Rthigh", "Rhips",
     "Lhips", "Neck",   "Rarm",   "Relbow", "Rforearm", "Rhand",  "Larm",  "Lelbow", "Lforearm",
@@ -40,10 +40,10 @@ class Lines {
   explicit Lines(const std::filesystem::path& path) : path_(path), file_(OpenFile(path)) {
     if (!file_) throw InputError(path.string() + ": cannot be read: expected a PCL people tree");
   }
-  // The next line as whole numbers.
+  // Reads the next line as integers.
   std::vector<int> Next(size_t count, const std::string& what) {
     ++line_;
-    // No line of a tree is longer; a file of other content may be one endless line.
+    // Lines of a tree are not longer; another file may be one endless line.
     std::array<char, 128> line{};
     file_.getline(line.data(), line.size());
     const auto length = static_cast<size_t>(file_.gcount()) - (file_.good() ? 1 : 0);
@@ -86,7 +86,7 @@ int16_t Clamped(double value) {
   return static_cast<int16_t>(std::lround(std::clamp(value, -32767.0, 32767.0)));
 }
 
-// True when every leaf below heap node i has one label: it becomes a leaf.
+// The common label of all leaves below each heap node, if there is one: the node becomes a leaf.
 std::vector<int> CommonLabels(const PclTree& tree) {
   const size_t inner = tree.nodes.size();
   std::vector<int> common(inner + tree.labels.size());
@@ -109,7 +109,7 @@ Tree Convert(const PclTree& source) {
     Node node;
     if (common[i] >= 0) {
       node.left = ~static_cast<int32_t>(tree.leaf_count());
-      // Unused labels 25 to 31 stand for background in PCL: a leaf that says nothing.
+      // The unused labels 25 to 31 mean background in PCL: a leaf without entries.
       if (common[i] < static_cast<int>(kPclNames.size())) {
         tree.entries.push_back(
             static_cast<uint16_t>(127U << 9U | (static_cast<uint32_t>(common[i]) + 1U)));

@@ -6,9 +6,9 @@
 
 namespace ossa::forest {
 
-/// A forest of 25 classes out of the people trees published with the Point Cloud Library (text:
-/// depth, then "du1 dv1 du2 dv2 threshold" a node in heap order, then a label a leaf). Throws
-/// InputError that names the file and line.
+/// Imports the people trees published with the Point Cloud Library as a forest of 25 classes (text:
+/// depth, then "du1 dv1 du2 dv2 threshold" per node in heap order, then one label per leaf). Throws
+/// InputError that names file and line.
 ForestModel ImportPclTrees(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace ossa::forest

@@ -3,15 +3,16 @@
 
 namespace ossa::forest {
 
-/// How many numbers the refinement reads of an object: part of the model's format, for its first
-/// layer has as many inputs. forest/proposals/joint_features.cpp computes them.
-inline constexpr size_t kModes = 3;             // told of a target
-inline constexpr size_t kNumbersOfMode = 8;     // of each
-inline constexpr size_t kNumbersOfTarget = 15;  // without the modes
+/// Sizes of the refinement's input: part of the model format, as they determine its first layer.
+/// Computed by forest/proposals/joint_features.cpp.
+inline constexpr size_t kModes = 3;             // modes per target
+inline constexpr size_t kNumbersOfMode = 8;     // numbers per mode
+inline constexpr size_t kNumbersOfTarget = 15;  // numbers per target, without its modes
 inline constexpr size_t kNumbersOfClass = 7;
-inline constexpr size_t kNumbersOfObject = 10;  // without the contexts
+inline constexpr size_t kNumbersOfObject = 10;  // numbers per object, without contexts
 
-/// Numbers that describe an object of so many targets, classes (background counts) and contexts.
+/// Number of features of an object, for these numbers of targets, classes (including background)
+/// and contexts.
 inline constexpr size_t JointFeatureCount(size_t targets, size_t classes, size_t contexts) {
   return contexts + kNumbersOfObject + targets * (kNumbersOfTarget + kModes * kNumbersOfMode) +
          (classes - 1) * kNumbersOfClass;

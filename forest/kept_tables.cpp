@@ -29,12 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file of kept tables: what is not tables, a head of sizes and checksums, in a checksummed
-// container beside it; and the tables, one after another, as they lie in memory. Read by the build
-// that wrote it alone.
+// Cached tables are stored in two files: a checksummed container with everything except the tables,
+// including their sizes and checksums; and the tables, concatenated in memory layout. Only the
+// build that wrote them can read them.
 constexpr ContainerFormat kTablesFormat{{'o', 's', 's', 'a', 't', 'a', 'b', 's'}, 1, "kept tables"};
 
-// Size and time of a file, which change with what is in it.
+// Size and modification time of a file.
 std::string Stamp(const fs::path& file) {
   struct stat is {};
   if (stat(file.c_str(), &is) != 0) return {};
@@ -43,8 +43,8 @@ std::string Stamp(const fs::path& file) {
          std::to_string(is.st_ino);
 }
 
-// Without an end; nothing where no tables are wanted or nobody can say where. Of whoever may change
-// files of others there is no folder that is surely one's own: sudo leaves HOME as it was.
+// The cache path without extension; none if caching is off or no folder is known. A privileged user
+// has no folder that is certainly their own: sudo keeps HOME.
 std::optional<fs::path> PlaceFor(const fs::path& model_file) {
   const char* chosen = std::getenv("OSSA_CACHE");
   const char* xdg = std::getenv("XDG_CACHE_HOME");
@@ -75,7 +75,7 @@ const LeafTables& LeavesOf(const RuntimeTables& tables, size_t tree) {
   return tables.deferred != nullptr ? tables.deferred->whole(tree) : tables.leaves[tree];
 }
 
-// Calls `visit` with each table of a model, always in the same order.
+// Calls `visit` with each table of a model, in a fixed order.
 template <typename Data, typename Tables, typename Visit>
 void ForEachTable(Data& data, Tables& tables, const Visit& visit) {
   for (size_t t = 0; t < data.trees.size(); ++t) {
@@ -136,7 +136,7 @@ bool Fill(std::vector<T>& table, uint64_t count, int file, uint64_t at) {
   return true;
 }
 
-// All but the tables, of which the sizes, in ForEachTable's order.
+// Reads everything except the tables, and their sizes in ForEachTable's order.
 std::vector<TableSize> ReadHead(const fs::path& file, Kept* kept) {
   const std::vector<std::byte> bytes = ReadContainer(file, kTablesFormat);
   PayloadReader head(bytes, file.string());
@@ -162,7 +162,8 @@ std::vector<TableSize> ReadHead(const fs::path& file, Kept* kept) {
   return sizes;
 }
 
-// Sizes first, so that of a file of another length nothing is read; tables side by side.
+// Checks the file length first, so that files of another length are not read; reads tables in
+// parallel.
 bool FillTables(const std::vector<TableSize>& sizes, const fs::path& path, Kept* kept) {
   std::vector<std::function<bool(int)>> steps;
   uint64_t at = 0;
@@ -185,7 +186,8 @@ bool FillTables(const std::vector<TableSize>& sizes, const fs::path& path, Kept*
   return is_whole;
 }
 
-// Of models and builds before, but the newest: a command and a Python package may take turns.
+// Removes caches of earlier models and builds except the newest: a command and a Python package may
+// alternate.
 void RemoveOldOnes(const fs::path& folder) {
   constexpr size_t kStaying = 2;  // by hand
   std::vector<std::pair<fs::file_time_type, fs::path>> heads;
@@ -209,7 +211,7 @@ void Write(const fs::path& place, const ForestData& data, const RuntimeTables& o
     tables.stream().write(reinterpret_cast<const char*>(table.data()),
                           static_cast<std::streamsize>(BytesOf(table)));
   });
-  tables.CommitOneOfMany();  // checksums tell what a power cut left
+  tables.CommitOneOfMany();  // checksums detect incomplete data after a power loss
   WriteContainer(HeadOf(place), kTablesFormat, PackHead(data, of));
   RemoveOldOnes(place.parent_path());
   RemoveLeftoversOf(TablesOf(place));
@@ -230,7 +232,7 @@ std::optional<ForestModel> ReadKeptTables(const fs::path& model_file) try {
   if (!place || !MayHaveKeptTables(model_file)) return std::nullopt;
   Kept kept;
   const std::vector<TableSize> sizes = ReadHead(HeadOf(*place), &kept);
-  ReturnFreedMemory();  // before the tables are there
+  ReturnFreedMemory();  // before the tables are allocated
   if (!FillTables(sizes, TablesOf(*place), &kept)) return std::nullopt;
   return ForestModel(std::make_shared<const ForestData>(std::move(kept.data)),
                      std::make_shared<const RuntimeTables>(std::move(kept.tables)));
@@ -241,7 +243,7 @@ std::optional<ForestModel> ReadKeptTables(const fs::path& model_file) try {
 void KeepTables(const fs::path& model_file, const ForestModel& model) {
   const auto place = PlaceFor(model_file);
   if (!place) return;
-  const RuntimeTables* tables = model.tables_.get();  // which outlive what they defer
+  const RuntimeTables* tables = model.tables_.get();  // outlives the deferred leaves
   const auto write = [place = *place, data = model.data_, tables] { Write(place, *data, *tables); };
   if (tables->deferred == nullptr) return write();
   tables->deferred->OnceWhole(write);

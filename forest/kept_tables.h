@@ -6,19 +6,19 @@
 
 namespace ossa::forest {
 
-/// Whether ReadKeptTables may find some.
+/// Whether ReadKeptTables might find cached tables.
 bool MayHaveKeptTables(const std::filesystem::path& model_file);
 
-/// The model, to be run only, from tables that KeepTables left for it: a third of a model's start
-/// is reading its file, the rest making its tables. Nothing where there are none for this very file
-/// and this very build of the library, where they are damaged, or where the user wants none.
+/// Loads a run-only model from tables cached by KeepTables: reading the model file is a third of
+/// start-up, building its tables the rest. None if there is no cache for this file and this build
+/// of the library, if it is damaged, or if the user disabled caching.
 std::optional<ForestModel> ReadKeptTables(const std::filesystem::path& model_file);
 
-/// Leaves the tables of a model that was read from `model_file` in $OSSA_CACHE (empty: none), else
-/// $XDG_CACHE_HOME/ossa, else ~/.cache/ossa: some 100 MB of the shipped one; of others that are
-/// there the newest stays. Of a model that defers its tables of leaves they are left as soon as all
-/// are made, by the thread that makes them: of one that classifies a few images alone never. That
-/// they cannot be written is no failure. Precondition: it classified nothing yet.
+/// Caches the tables of a model read from `model_file` in $OSSA_CACHE (empty: off), else
+/// $XDG_CACHE_HOME/ossa, else ~/.cache/ossa: some 100 MB for the shipped one; of other caches the
+/// newest is kept. If leaf tables are deferred, the cache is written by the thread that completes
+/// them; if only a few images are classified, never. Failure to write is ignored. Precondition:
+/// nothing has been classified yet.
 void KeepTables(const std::filesystem::path& model_file, const ForestModel& model);
 
 }  // namespace ossa::forest

@@ -12,14 +12,13 @@
 namespace ossa::forest {
 namespace {
 
-// Constants: chosen by hand; weights are the format's.
+// Constants: chosen by hand; entry weights by the format.
 
-constexpr float kSmoothing = 3.0F;  // entry weights (of 127) by which a leaf's own mix of classes
-                                    // stands in where a context was hardly seen
+constexpr float kSmoothing = 3.0F;  // weight (of 127) of a leaf's classes over all contexts
 
-constexpr size_t kCells = 512;  // that an entry can tell, of the format
+constexpr size_t kCells = 512;  // distinct cells of an entry, of the format
 
-// Of each cell of context and class which they are: spares millions of divisions.
+// Context and class of each cell: avoids millions of divisions.
 class CellPlaces {
  public:
   explicit CellPlaces(size_t classes) {
@@ -35,14 +34,14 @@ class CellPlaces {
   std::array<uint16_t, kCells> class_{}, context_{};
 };
 
-// As std::lround, which is a call.
+// As std::lround, but inlined.
 int Round(float value) {
   return static_cast<int>(static_cast<double>(value) + (value < 0.0F ? -0.5 : 0.5));
 }
 
-// A leaf's weights, told by context and class. Few of the cells are anything but 0: Load clears
-// those of the leaf before instead of all. Half of the time that a model takes to load is spent
-// here and in ComputeShares: hence the plain pointers, which no library's assertions check.
+// A leaf's weights by context and class. Most cells are 0: Load clears only those of the previous
+// leaf. Half of a model's load time is spent here and in ComputeShares: hence plain pointers,
+// without assertions.
 class LeafCells {
  public:
   LeafCells(const CellPlaces& places, size_t classes, size_t contexts)
@@ -70,13 +69,13 @@ class LeafCells {
     for (const size_t c : seen_classes) share_of_seen.push_back(class_weight[c] / total);
   }
 
-  /// One for each class.
+  /// One weight per class.
   const float* Weights(size_t context) const {
     return weight_.data() + context * class_weight_.size();
   }
 
-  std::vector<size_t> seen_classes;   // in no order
-  std::vector<float> share_of_seen;   // of each of them: P(class | leaf)
+  std::vector<size_t> seen_classes;   // unordered
+  std::vector<float> share_of_seen;   // for each of these: P(class | leaf)
   std::vector<float> context_weight;  // sums over classes
 
  private:
@@ -97,12 +96,12 @@ class LeafCells {
   std::vector<float> weight_;  // context × class
 };
 
-// log P(leaf | context) up to a constant of the leaf, by the leaf's weight in the context. Weights
-// are whole numbers: a table spares millions of logarithms.
+// log P(leaf | context) up to a constant per leaf, by the leaf's weight in the context. Weights are
+// integers: a table avoids millions of logarithms.
 class LogRatios {
  public:
   explicit LogRatios(const ForestData& data) {
-    constexpr size_t kMostWeight = 127;  // of an entry
+    constexpr size_t kMostWeight = 127;  // largest weight of an entry
     for (const float prior : data.context_prior) {
       prior_.push_back(std::max(prior, 1e-3F));
       std::vector<float>& ratio = table_.emplace_back();
@@ -120,7 +119,7 @@ class LogRatios {
 
  private:
   static float Compute(float weight, float prior) {
-    constexpr float kFloor = 0.5F;  // half an entry weight: what rounding may have hidden
+    constexpr float kFloor = 0.5F;  // half an entry weight: may have been rounded to 0
     return std::log((weight + kFloor * prior) / prior);
   }
 
@@ -128,11 +127,11 @@ class LogRatios {
   std::vector<std::vector<float>> table_;  // context × weight
 };
 
-// The rows of one leaf, centred, so that sums stay small.
+// Fills the evidence of a leaf, centred, so that sums stay small.
 void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* evidence) {
   const size_t contexts = cells.context_weight.size();
   const float* weight = cells.context_weight.data();
-  std::array<float, kCells> ratio;  // of each context
+  std::array<float, kCells> ratio;  // per context
   float mean = 0.0F;
   for (size_t k = 0; k < contexts; ++k) {
     ratio[k] = log_ratios.Of(weight[k], k);
@@ -143,13 +142,13 @@ void FillEvidence(const LeafCells& cells, const LogRatios& log_ratios, int16_t* 
   }
 }
 
-// A share and its column as one number: the larger the share, the smaller; of equals the smaller
-// column first. Positive floats are in order of their bits.
+// Packs a share and its column into one integer that sorts by descending share, then by ascending
+// column. The bits of positive floats sort like their values.
 uint64_t PackShare(float p, size_t column) {
   return uint64_t{~std::bit_cast<uint32_t>(p)} << 8U | column;
 }
 
-// P(class | leaf, context), smoothed by P(class | leaf), as the largest shares of 255.
+// P(class | leaf, context), smoothed with P(class | leaf), as the largest shares of 255.
 ShareRow ComputeShares(const LeafCells& cells, size_t context) {
   std::array<uint64_t, kMostShares> most;  // ascending
   most.fill(PackShare(0.0F, 0));
@@ -176,7 +175,7 @@ ShareRow ComputeShares(const LeafCells& cells, size_t context) {
   return row;
 }
 
-// The rows of one leaf. All contexts in which it was never seen have one row.
+// Fills the share rows of a leaf. All contexts without observations have a common row.
 void FillShares(const LeafCells& cells, uint8_t* shares_of, ShareRow* shares) {
   constexpr int kNone = -1;
   int unseen = kNone, rows = 0;
@@ -194,10 +193,10 @@ void FillShares(const LeafCells& cells, uint8_t* shares_of, ShareRow* shares) {
   }
 }
 
-// How many rows FillShares makes of a leaf.
+// Number of rows that FillShares makes for a leaf.
 size_t CountShares(const LeafEntries& tree, size_t leaf, const CellPlaces& places,
                    size_t contexts) {
-  std::array<uint64_t, kCells / 64> is_seen{};  // a bit a context
+  std::array<uint64_t, kCells / 64> is_seen{};  // one bit per context
   const uint16_t* entries = tree.entries.data();
   for (uint32_t e = tree.begin.data()[leaf]; e < tree.begin.data()[leaf + 1]; ++e) {
     const size_t context = places.ContextOf(entries[e] & (kCells - 1));
@@ -210,7 +209,7 @@ size_t CountShares(const LeafEntries& tree, size_t leaf, const CellPlaces& place
 
 }  // namespace
 
-// What all leaves of a model share.
+// Data shared by all leaves of a model.
 struct LeafTableMaker::Shared {
   explicit Shared(const ForestData& data)
       : classes(data.class_names.size()),

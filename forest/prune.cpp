@@ -1,5 +1,5 @@
-// Most of a leaf's entries stand for a few pixels each: chance, not knowledge. Left out they cost
-// nothing at the top of the list and a third of the file.
+// Most entries of a leaf represent a few pixels each, which is noise. Pruning them does not reduce
+// accuracy and saves a third of the file.
 #include "forest/prune.h"
 
 #include "depth/base/error.h"
@@ -33,7 +33,7 @@ ForestData Thinned(ForestData data, unsigned least_weight) {
 ForestModel FitInto(const ForestModel& model, uint64_t bytes) {
   const uint64_t whole = FileSize(model.data());
   if (whole <= bytes) return model;
-  // Searched by the quick packing, in proportion; then the file itself has the last word.
+  // Searches with the fast packing, scaled to the final size, then verifies with the real one.
   const double ratio =
       static_cast<double>(whole) / static_cast<double>(FileSize(model.data(), Packing::kQuick));
   unsigned low = 1;  // too large

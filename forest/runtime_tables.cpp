@@ -42,7 +42,7 @@ std::vector<std::vector<uint32_t>> Neighbours(const ForestData& data) {
   return neighbours;
 }
 
-// Of each leaf, in that order.
+// The vote row of each leaf, in the given order.
 std::vector<int32_t> MakeVoteRows(const Tree& tree, const std::vector<int32_t>& order) {
   if (tree.votes.empty()) return std::vector<int32_t>(order.size(), -1);
   size_t rows = 0;

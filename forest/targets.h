@@ -9,8 +9,8 @@
 
 namespace ossa::forest {
 
-/// Which of the model's targets bears each of the names. Throws InputError that names the model
-/// where none does.
+/// The indices of the model's targets with these names. Throws InputError that names the model if
+/// one is missing.
 std::vector<size_t> FindTargets(const ForestModel& model, std::span<const std::string_view> names,
                                 const std::string& model_name);
 

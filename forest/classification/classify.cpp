@@ -1,8 +1,8 @@
 // Shotton et al. 2011, sec. 3.3: P(c | I, x) = 1/T Σ_t P_t(c | I, x).
-// Departure: leaves know the joint distribution of class and context (which way the person faces).
-// All the object's pixels first vote on the context; then each pixel reads P(c | leaf, context).
-// A single pixel cannot tell a left shoulder seen from behind from a right one seen from the front;
-// the whole person can.
+// Departure: leaves store the joint distribution of class and context (the person's heading). All
+// pixels of an object first vote on the context; then each pixel uses P(c | leaf, context). A
+// single pixel cannot distinguish a left shoulder seen from behind from a right one seen from the
+// front; the whole person can.
 #include "forest/classification/classify.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -24,28 +24,28 @@
 namespace ossa::forest {
 namespace {
 
-// Constants: chosen by hand, for speed where a count of pixels is said.
+// Constants: chosen by hand; pixel counts for speed.
 
-constexpr float kEvidenceUnit = 1.0F / 256.0F;  // of LeafTables::evidence; share
-constexpr uint32_t kContextUnits = 64;          // the posterior in integer shares, exact sums
+constexpr float kEvidenceUnit = 1.0F / 256.0F;  // unit of LeafTables::evidence; share
+constexpr uint32_t kContextUnits = 64;  // resolution of the posterior in integers, for exact sums
 constexpr size_t kPixelsPerTask = 2048;
 
-// What those pixels say that walk.
+// Results of the pixels that are classified by the trees.
 struct Walked {
   std::vector<int32_t> leaf;  // pixel × tree
-  size_t stride = 0;          // of a row of masses
+  size_t stride = 0;          // row stride of the masses
   std::unique_ptr<uint8_t[]>
-      mass;  // of 255; class c stands in column c - 1: class 0 is never given
+      mass;  // probability in 255ths; class c is in column c - 1: class 0 never occurs
 };
 
 struct ActiveContext {
   uint32_t index = 0;
-  uint32_t share = 0;  // of kContextUnits
+  uint32_t share = 0;  // in kContextUnits
 };
 
-constexpr size_t kAhead = 24;  // pixels whose rows are fetched before they are used
+constexpr size_t kAhead = 24;  // prefetch distance in pixels
 
-// A pixel without reading has no feature.
+// Pixels without a reading have no features.
 std::vector<int32_t> PixelsWithReading(const depth::DepthView& depth,
                                        std::span<const int32_t> pixels) {
   std::vector<int32_t> kept(pixels.size());
@@ -75,16 +75,17 @@ OSSA_CPU_DISPATCH void AddTo(const int16_t* __restrict values, size_t count,
   for (size_t k = 0; k < count; ++k) sum[k] += values[k];
 }
 
-// Posterior ∝ prior · exp(evidence_scale · mean evidence): the pixels of one object are far from
-// independent, so that their mean counts as evidence_scale of them (learned on held-out frames).
+// Posterior ∝ prior · exp(evidence_scale · mean evidence): the pixels of an object are far from
+// independent, so their mean counts as evidence_scale independent ones (learned on held-out
+// frames).
 std::vector<float> ContextPosterior(const ForestModel& model, const LeafRows& rows,
                                     std::span<const float> prior) {
-  constexpr size_t kPixels = 500;  // tell the facing as well as all do
+  constexpr size_t kPixels = 500;  // as good as all pixels
   const auto contexts = static_cast<size_t>(model.context_count());
   const size_t trees = rows.tables.size();
   const size_t pixels = rows.at.size() / trees;
   const size_t step = std::max<size_t>(1, pixels / kPixels);
-  std::vector<int32_t> sum(contexts, 0);  // of at most twice kPixels for each tree: it fits
+  std::vector<int32_t> sum(contexts, 0);  // of at most 2 kPixels per tree: cannot overflow
   size_t walked_leaves = 0;
   const auto evidence_of = [&](size_t i, size_t t) {
     return rows.tables[t].evidence + static_cast<size_t>(rows.at[i * trees + t]) * contexts;
@@ -109,7 +110,7 @@ std::vector<float> ContextPosterior(const ForestModel& model, const LeafRows& ro
   return log_posterior;
 }
 
-// The contexts that are mixed: rare ones change no label, and each costs a row of every leaf.
+// The contexts to mix: rare ones change no label, and each costs a table row per leaf.
 std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
   constexpr uint32_t kLeastShare = 3;
   std::vector<uint32_t> share;
@@ -124,9 +125,8 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
   return active;
 }
 
-// The rows of a pixel's leaves: asked for some pixels ahead, since each is a cache miss.
-// Always inline: GCC 12 takes a function that only fetches for one without effect, and leaves its
-// calls out.
+// Prefetches the table rows of a pixel's leaves, each of which is a cache miss. Always inline: GCC
+// 12 considers a function with only prefetches as having no effect, and drops its calls.
 [[gnu::always_inline]] inline void FetchRows(const LeafRows& rows, size_t contexts, size_t context,
                                              const int32_t* at) {
   for (const LeafView& tables : rows.tables) {
@@ -135,7 +135,7 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
   }
 }
 
-// Where those rows are, which is asked for as far ahead of them.
+// Prefetches the row indices, even earlier.
 [[gnu::always_inline]] inline void FetchPlaces(const LeafRows& rows, size_t contexts,
                                                const int32_t* at) {
   for (const LeafView& tables : rows.tables) {
@@ -145,11 +145,11 @@ std::vector<ActiveContext> ActiveContexts(std::span<const float> posterior) {
   }
 }
 
-// Samples whose leaves are added up before their sums are read: a sum that was only just written
-// number by number cannot be read many at once.
+// Samples accumulated before their sums are read: reading a value with a wide load directly after
+// narrow stores would stall.
 constexpr size_t kMixedAtOnce = 32;
 
-// out = sum · 255 / total, rounded; the same on every path.
+// out = sum · 255 / total, rounded; identical on every code path.
 OSSA_CPU_DISPATCH void ToMasses(const uint32_t* sum, const uint32_t* total, size_t samples,
                                 size_t stride, uint8_t* out) {
   for (size_t i = 0; i < samples; ++i, sum += stride, out += stride) {
@@ -161,8 +161,8 @@ OSSA_CPU_DISPATCH void ToMasses(const uint32_t* sum, const uint32_t* total, size
   }
 }
 
-// Adds what a sample's leaves say; returns how much it is. By plain pointers, which no library's
-// assertions check: it is done for every sample.
+// Accumulates the distributions of a sample's leaves; returns the total. Plain pointers, without
+// assertions, because it runs for every sample.
 uint32_t AddLeaves(const LeafRows& rows, size_t contexts, std::span<const ActiveContext> active,
                    const int32_t* at, uint32_t* sum) {
   uint32_t total = 0;
@@ -180,7 +180,7 @@ uint32_t AddLeaves(const LeafRows& rows, size_t contexts, std::span<const Active
   return total;
 }
 
-// Masses of walked pixels [first, last). Integers and one rounding: the same in every order.
+// Class masses of pixels [first, last). Integers and one rounding: the same in any order.
 void MixLeaves(const LeafRows& rows, size_t contexts, std::span<const ActiveContext> active,
                std::array<size_t, 2> range, Walked* walked) {
   const size_t trees = rows.tables.size();
@@ -219,11 +219,12 @@ std::vector<float> ComputeScales(const std::vector<uint16_t>& mass, size_t strid
   return scale;
 }
 
-// Metres of surface between neighbouring pixels, at the object's mean depth; 0 without pixels.
+// Surface distance between neighbouring pixels at the object's mean depth, metres; 0 without
+// pixels.
 double Pitch_m(const ObjectImage& image, const depth::Camera& camera, int background_mm,
                size_t pixels) {
   if (pixels == 0) return 0.0;
-  // What is not the object's reads background_mm.
+  // Pixels outside the object read background_mm.
   const int64_t around = static_cast<int64_t>(image.depth_mm.size() - pixels) * background_mm;
   const int64_t all_mm = std::accumulate(image.depth_mm.begin(), image.depth_mm.end(), int64_t{0});
   return 1e-3 * static_cast<double>(all_mm - around) / static_cast<double>(pixels) / camera.fx;
@@ -255,7 +256,7 @@ std::vector<int32_t> WalkTrees(const ForestModel& model, const ObjectImage& imag
   std::vector<int32_t> leaf(samples.size() * trees);
   const auto walk = options.instructions == InstructionSet::kScalar ? WalkScalar : Walk;
   ForRanges(samples.size(), options.threads, [&](size_t first, size_t last) {
-    if (first == last) return;  // no pixels: no leaves to point into
+    if (first == last) return;  // no pixels
     for (size_t t = 0; t < trees; ++t) {
       walk({&model.tables().trees[t], &image, samples.subspan(first, last - first)},
            leaf.data() + first * trees + t, trees);

@@ -1,5 +1,5 @@
-// From samples to pixels. Most pixels lie between four samples of one label; the others get that of
-// the four samples' labels which has most mass at them, weighted bilinearly.
+// Upsamples labels from samples to pixels. Most pixels are between four samples of the same label;
+// for the others, bilinear interpolation of the samples' masses decides among their labels.
 #include <algorithm>
 #include <array>
 
@@ -8,11 +8,11 @@
 namespace ossa::forest {
 namespace {
 
-// More labels than one; a class of this number merely costs time; by convention
+// Several labels; a class with this number would only cost time; by convention
 constexpr uint8_t kMixed = 255;
 
-// Between the cells (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) for x, y >= -1: the one label
-// of all samples there, or kMixed.
+// For the square between the cells (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1), x, y >= -1: the
+// common label of all samples, or kMixed.
 std::vector<uint8_t> LabelsBetween(const SparsePixels& sparse, const SmoothMasses& smooth) {
   const auto columns = static_cast<size_t>(sparse.grid.width + 1);
   std::vector<uint8_t> between(columns * static_cast<size_t>(sparse.grid.height + 1), 0);
@@ -31,14 +31,14 @@ std::vector<uint8_t> LabelsBetween(const SparsePixels& sparse, const SmoothMasse
   return between;
 }
 
-// Four samples and what they say of each other's labels: all pixels between them ask the same.
+// Four samples and their masses for each other's labels: shared by all pixels between them.
 struct Quad {
-  int32_t row = -2;                   // whose it is; those of other rows are out of date
-  int32_t count = 0;                  // of samples that exist
-  std::array<int32_t, 4> corner{};    // of each: 0 to 3, row by row
+  int32_t row = -2;                   // row that it was computed for; stale for other rows
+  int32_t count = 0;                  // number of existing samples
+  std::array<int32_t, 4> corner{};    // corner of each: 0 to 3, row by row
   std::array<int32_t, 4> depth_mm{};  // of each
   std::array<uint8_t, 4> label{};     // of each
-  std::array<std::array<uint32_t, 4>, 4> mass{};  // label's of × sample's
+  std::array<std::array<uint32_t, 4>, 4> mass{};  // label of one × sample
 };
 
 void FillQuad(const SparsePixels& sparse, const SmoothMasses& smooth, int32_t x, int32_t y,
@@ -65,8 +65,8 @@ void FillQuad(const SparsePixels& sparse, const SmoothMasses& smooth, int32_t x,
   }
 }
 
-// The label of those samples on the pixel's surface that has most of their masses, weighted
-// bilinearly; 0 where there is none.
+// The label with the largest bilinear mass, among samples on the pixel's surface; 0 if there are
+// none.
 uint8_t LabelBetween(const Quad& quad, const Between& x, const Between& y, int depth_mm) {
   const std::array<uint32_t, 2> across = {static_cast<uint32_t>(8 - x.eighths),
                                           static_cast<uint32_t>(x.eighths)};
@@ -94,9 +94,9 @@ uint8_t LabelBetween(const Quad& quad, const Between& x, const Between& y, int d
   return best;
 }
 
-// Gives each pixel of a row its sample's label, and picks those that lie between samples of several
-// labels and are none themselves. Without a branch: hardly anybody foresees which ones. Returns how
-// many are picked.
+// Assigns each pixel of a row its sample's label, and collects the pixels between samples of
+// several labels that are not samples. Branch-free, because outcomes are unpredictable. Returns the
+// number of collected pixels.
 size_t LabelRow(std::span<const int32_t> position, const int32_t* from, const SparsePixels& sparse,
                 const uint8_t* row_between, const uint8_t* sample_label, uint8_t* label,
                 uint32_t* picked) {

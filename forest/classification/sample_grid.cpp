@@ -1,5 +1,6 @@
-// Neighbouring pixels a few millimetres apart see the same depths at the same offsets, and their
-// answers are averaged over a patch anyhow. Departure from Shotton et al. 2011, who classify each.
+// Neighbouring pixels a few millimetres apart probe nearly the same depths, and results are
+// smoothed over a patch anyway, so only samples are classified. Departure from Shotton et al. 2011,
+// who classify every pixel.
 #include "forest/classification/sample_grid_internal.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 
 // Constants: sizes of tiles, for speed.
 
-// Tiles of 16 × 8 cells, as many samples as walk at once.
+// Tiles of 16 × 8 cells: the samples that are walked together.
 constexpr int kTileColumns = 16;
 constexpr int kTileRows = 8;
 
@@ -32,7 +33,7 @@ std::vector<Between> PlacesOnGrid(int pixels, double spacing) {
 // The pixels of each cell along one axis.
 struct Cell {
   int begin = 0, end = 0;
-  int centre = -1;  // the one nearest to the cell's middle; -1: it lies off the box
+  int centre = -1;  // nearest to the cell's centre; -1: outside the box
 };
 
 std::vector<Cell> FindCells(const std::vector<Between>& places) {
@@ -46,12 +47,12 @@ std::vector<Cell> FindCells(const std::vector<Between>& places) {
   return cells;
 }
 
-// Pixels that are not of the object read as the ring around them does.
+// Whether a pixel belongs to the object: others have the value of the border.
 bool IsObject(const ObjectImage& image, int x, int y) {
   return image.depth_mm[image.At(x, y)] != image.depth_mm.front();
 }
 
-// The pixel of a cell that is to be its sample: the one in its middle, else the first; or kNone.
+// The sample pixel of a cell: its centre, else the first pixel; or kNone.
 int32_t ChoosePixel(const ObjectImage& image, const Cell& column, const Cell& row) {
   if (column.centre >= 0 && row.centre >= 0 && IsObject(image, column.centre, row.centre)) {
     return row.centre << 16 | column.centre;
@@ -64,7 +65,7 @@ int32_t ChoosePixel(const ObjectImage& image, const Cell& column, const Cell& ro
   return SparsePixels::kNone;
 }
 
-// Chooses each cell's sample, tile by tile.
+// Chooses the sample of each cell, tile by tile.
 void ChoosePerCell(const ObjectImage& image, SparsePixels* sparse) {
   ObjectImage& grid = sparse->grid;
   const std::vector<Cell> columns = FindCells(sparse->column);
@@ -87,7 +88,7 @@ void ChoosePerCell(const ObjectImage& image, SparsePixels* sparse) {
   sparse->on_grid = sparse->position.size();
 }
 
-// The first of the four samples around a pixel that lies on its surface; or kNone.
+// The first of the four surrounding samples on the pixel's surface; or kNone.
 int32_t SampleAround(const SparsePixels& sparse, const Between& x, const Between& y, int depth_mm) {
   const ObjectImage& grid = sparse.grid;
   for (int corner = 0; corner < 4; ++corner) {
@@ -100,14 +101,14 @@ int32_t SampleAround(const SparsePixels& sparse, const Between& x, const Between
   return SparsePixels::kNone;
 }
 
-// Gives each pixel the sample of its cell, or another of the four around it, or makes it a sample
-// of its own.
+// Assigns each pixel the sample of its cell, else another of the four around it, else makes it a
+// sample itself.
 void SpreadSamples(const ObjectImage& image, std::span<const int32_t> position,
                    SparsePixels* sparse) {
   const ObjectImage& grid = sparse->grid;
   sparse->from.resize(position.size());
   int32_t* from = sparse->from.data();
-  std::vector<int32_t> cell_of;  // of each x
+  std::vector<int32_t> cell_of;  // cell of each x
   for (const Between& column : sparse->column) cell_of.push_back(column.cell);
   ForRows(position, kPositionRow, [&](int y, size_t first, size_t last) {
     const Between& row = sparse->row[static_cast<size_t>(y)];

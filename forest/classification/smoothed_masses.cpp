@@ -1,8 +1,8 @@
-// Neighbouring pixels of a surface carry the same part, but a tree answers each by itself, and its
-// errors scatter like salt and pepper: averaging P(c | I, x) over a patch of about 5 cm takes them
-// out. Departure from Shotton et al. 2011, whose per-pixel answers go to mean shift directly.
-// Prefix sums along rows and columns make the cost independent of the patch's size. Only as many
-// rows are held as a window is high: they stay in the cache.
+// Neighbouring pixels of a surface belong to the same part, but trees classify each independently,
+// with salt-and-pepper errors: averaging P(c | I, x) over a patch of about 5 cm removes them.
+// Departure from Shotton et al. 2011, who feed per-pixel results to mean shift directly. Prefix
+// sums along rows and columns make the cost independent of the patch size. Only the rows of one
+// window are stored, so they stay in the cache.
 #include "forest/classification/smoothed_masses_internal.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace {
 
 // Constants: of vector registers and of 8 bits.
 
-constexpr size_t kBlock = 16;  // masses that the vector units take at once
+constexpr size_t kBlock = 16;  // masses per vector operation
 constexpr int32_t kNone = SparsePixels::kNone;
 
-// 65535 / width: a table spares the division, and the vector units multiply 16 bits by 16.
+// 65535 / width: replaces the division by a 16-bit multiplication.
 constexpr auto kShareOfWidth = [] {
   std::array<uint16_t, 2 * kMaxSmoothRadius + 2> share{};
   for (size_t width = 1; width < share.size(); ++width) {
@@ -30,11 +30,11 @@ constexpr auto kShareOfWidth = [] {
   return share;
 }();
 
-// Rows of masses of the latest pixels, by the pixel's number.
+// Ring buffer of the mass rows of recent pixels, by pixel index.
 struct Ring {
   size_t stride = 0;
   size_t capacity = 0;         // a power of two
-  std::vector<uint16_t> rows;  // and one more of zeros, that of no pixel
+  std::vector<uint16_t> rows;  // and one row of zeros, for missing pixels
 
   Ring(size_t pixels, size_t row_stride)
       : stride(row_stride), capacity(std::bit_ceil(pixels)), rows((capacity + 1) * stride) {}
@@ -46,7 +46,8 @@ struct Ring {
 using Block = uint16_t __attribute__((vector_size(2 * kBlock)));
 using ByteBlock = uint8_t __attribute__((vector_size(kBlock)));
 
-// sum[i] = sum[i - 1] + mass[sample[i]] along one run; sum has one row more, the first of zeros.
+// sum[i] = sum[i - 1] + mass[sample[i]] along a run; sum has one additional row of zeros at its
+// start.
 OSSA_CPU_DISPATCH void PrefixRun(const uint8_t* mass, std::span<const int32_t> sample,
                                  size_t stride, uint16_t* sum) {
   std::fill_n(sum, stride, uint16_t{0});
@@ -61,8 +62,8 @@ OSSA_CPU_DISPATCH void PrefixRun(const uint8_t* mass, std::span<const int32_t> s
   }
 }
 
-// Means over windows of a run that begins with pixel `first`, times four, added to the sums of the
-// pixels above.
+// Adds the window means, times four, of a run starting at pixel `first` to the sums of the pixels
+// above.
 OSSA_CPU_DISPATCH void AverageRun(const uint16_t* sum, int radius, int32_t first,
                                   std::span<const int32_t> up, Ring* ring) {
   const auto count = static_cast<int>(up.size());
@@ -88,7 +89,7 @@ OSSA_CPU_DISPATCH void AverageRun(const uint16_t* sum, int radius, int32_t first
   }
 }
 
-// The first of a row's largest columns + 1; 0 where there is no mass.
+// The first of a row's largest columns, plus 1; 0 without mass.
 [[gnu::always_inline]] inline uint8_t ChooseLabel(const uint16_t* mass, size_t stride) {
   constexpr uint32_t kColumns = 255;
   uint32_t best = 0;
@@ -100,14 +101,14 @@ OSSA_CPU_DISPATCH void AverageRun(const uint16_t* sum, int radius, int32_t first
   return best >> 8U == 0 ? 0 : static_cast<uint8_t>(kColumns - (best & kColumns) + 1);
 }
 
-// Where a sample's window ends below, and before it begins; and the sample itself.
+// The last row of a sample's window, the row before its first, and the sample.
 struct Window {
   int32_t high = kNone;
   int32_t low = kNone;
   int32_t sample = 0;
 };
 
-// Sums at `high` - sums at `low`, modulo 2^16, and the label of each.
+// Differences of the sums at `high` and `low`, modulo 2^16, and the label of each.
 OSSA_CPU_DISPATCH void Conclude(const Ring& ring, std::span<const Window> windows, uint16_t* mass,
                                 uint8_t* label) {
   const uint16_t* rows = ring.rows.data();
@@ -127,18 +128,18 @@ OSSA_CPU_DISPATCH void Conclude(const Ring& ring, std::span<const Window> window
   }
 }
 
-// The samples on the grid, in raster order: what follows numbers them so.
+// The grid samples in raster order, by which they are indexed below.
 struct Raster {
   std::vector<int32_t> cell;
   std::vector<int32_t> sample;
-  std::vector<size_t> row_begin;  // the first of each row, and one past the last of all
-  std::vector<int32_t> index;     // of a cell: its number here; or kNone
-  // Where each sample's column goes on, on the same surface.
-  std::vector<int32_t> up;             // its neighbour above; or kNone
-  std::vector<uint16_t> above, below;  // how many follow each way
+  std::vector<size_t> row_begin;  // index of the first of each row, and the total number
+  std::vector<int32_t> index;     // per cell: its raster index; or kNone
+  // The extent of each sample's column on the same surface.
+  std::vector<int32_t> up;             // neighbour above; or kNone
+  std::vector<uint16_t> above, below;  // number of samples in each direction
 };
 
-// The sample above one of row y, where it lies on the same surface.
+// The sample above one in row y, if on the same surface.
 int32_t NeighbourAbove(const ObjectImage& grid, const Raster& raster, int x, int y) {
   if (y == 0) return kNone;
   const int32_t up = raster.index[static_cast<size_t>((y - 1) * grid.width + x)];
@@ -177,7 +178,7 @@ Raster MakeRaster(const SparsePixels& sparse) {
   return raster;
 }
 
-// Samples in as many rows as must be held at once: a window, the row above it and the newest.
+// Number of samples in the rows stored at once: a window, the row above it and the newest row.
 size_t MostHeld(const std::vector<size_t>& row_begin, int radius) {
   const auto rows = static_cast<size_t>(2 * radius + 2);
   size_t most = 1;
@@ -212,7 +213,7 @@ class Smoother {
   }
 
  private:
-  // Runs of a row end where the object does or the depth jumps.
+  // Runs end at the object's border and at depth discontinuities.
   void AverageRow(size_t y) {
     const uint16_t* depth_mm = &grid_.depth_mm[grid_.At(0, static_cast<int>(y))];
     const auto& cell = raster_.cell;
@@ -260,9 +261,9 @@ class Smoother {
   const ObjectImage& grid_;
   int radius_;
   Raster raster_;
-  Ring ring_;                    // sums down the columns, modulo 2^16
-  std::vector<uint16_t> sum_;    // along a run
-  std::vector<Window> windows_;  // of a row
+  Ring ring_;                    // column sums, modulo 2^16
+  std::vector<uint16_t> sum_;    // prefix sums of a run
+  std::vector<Window> windows_;  // windows of a row
   SmoothMasses result_;
 };
 

@@ -1,5 +1,5 @@
-// What a sample of an object's pixels says: surface with its classes, and the position votes of the
-// leaves they reached (Girshick et al. 2011).
+// Evidence of sampled pixels of an object: surface points with their classes, and the position
+// votes of the leaves they reached (Girshick et al. 2011).
 #include <algorithm>
 #include <cmath>
 
@@ -11,12 +11,12 @@ namespace {
 
 // Constants: for speed, by hand.
 
-constexpr size_t kSampledPixels = 640;  // more do not move the modes by a millimetre worth having
+constexpr size_t kSampledPixels = 640;  // more change modes by less than a millimetre
 
-// Pixel i's context: over many pixels each is drawn as often as it is likely, without chance.
+// The context of pixel i: over many pixels, frequencies follow the posterior without randomness.
 size_t DrawContext(const std::vector<float>& posterior, size_t i) {
-  constexpr double kGolden = 0.6180339887498949;  // multiples spread evenly over the unit interval;
-                                                  // no unit; by definition (sqrt 5 - 1) / 2
+  // Multiples equidistribute in the unit interval; no unit; by definition (sqrt 5 - 1) / 2.
+  constexpr double kGolden = 0.6180339887498949;
   double left = static_cast<double>(i) * kGolden;
   left -= std::trunc(left);
   for (size_t k = 0; k < posterior.size(); ++k) {
@@ -26,8 +26,9 @@ size_t DrawContext(const std::vector<float>& posterior, size_t i) {
   return posterior.empty() ? 0 : posterior.size() - 1;
 }
 
-// The votes of each sampled pixel's leaf, one a target; null where the tree has none. Trees take
-// turns. Two passes: what either reads is a cache miss, and the misses of a pass overlap.
+// The votes of each sampled pixel's leaf, one per target; null if the tree has none. Pixels
+// alternate between trees. Two passes: both access memory randomly, and the cache misses within a
+// pass overlap.
 std::vector<const Vote*> GatherVotes(const ForestModel& model, const Classification& classification,
                                      std::span<const size_t> pixels) {
   const size_t trees = model.data().trees.size();
@@ -51,7 +52,7 @@ std::vector<const Vote*> GatherVotes(const ForestModel& model, const Classificat
   return votes;
 }
 
-// Evidence of so many samples that all say nothing yet.
+// Evidence of `count` samples, zero-initialised.
 Evidence EmptyEvidence(size_t count, size_t classes, size_t targets) {
   Evidence evidence;
   evidence.count = count;

@@ -1,6 +1,6 @@
-// An object in numbers, for the refinement. Positions are told about the object's own root, in axes
-// of which z runs along the ray to it: wherever in the image somebody stands, the numbers are the
-// same. Lengths are metres; what is far says no more than "far" and is cut off.
+// The features of an object for the refinement. Positions are relative to the object's root, in
+// axes of which z is along the ray to it, so they do not depend on the person's position in the
+// image. Lengths are metres and clipped: beyond that only "far" is informative.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -15,12 +15,12 @@ namespace {
 
 // Constants: chosen by hand; part of every shipped model.
 
-constexpr float kFar_m = 1.0F;           // of modes and predictions from the place
-constexpr double kBorderReach_m = 0.5;   // farther borders of the image do not matter
-constexpr float kSurfaceReach_m = 0.6F;  // nor surface
-constexpr float kNowhere_m = 1e4F;       // out of anything's reach
+constexpr float kFar_m = 1.0F;          // clip: distance of modes and predictions from the position
+constexpr double kBorderReach_m = 0.5;  // clip: distance of image borders
+constexpr float kSurfaceReach_m = 0.6F;  // clip: distance of surface
+constexpr float kNowhere_m = 1e4F;       // padding, beyond every clip
 
-// Evidence's surface in the frame, one array a coordinate; filled up with points far away.
+// The evidence's surface points in the frame, one array per coordinate, padded with far points.
 struct Surface {
   std::vector<float> x, y, z;
   Eigen::Vector3f centre_m = Eigen::Vector3f::Zero();
@@ -33,17 +33,17 @@ struct Surface {
   }
 };
 
-// What lies nearest to a place: at all, and across the line of sight.
+// The nearest surface point to a position: in 3D, and perpendicular to the line of sight.
 struct Nearest {
   float square_m2 = kSurfaceReach_m * kSurfaceReach_m;
   float perpendicular_m2 = square_m2;
-  float behind_m = 0.0F;  // of the place, along the line of sight
+  float behind_m = 0.0F;  // depth behind the position, along the line of sight
 };
 
-// The same for each lane's share of the points.
+// As Nearest, per lane.
 struct NearestOfLanes {
   Lanes square_m2, perpendicular_m2, behind_m;
-  IntLanes number;  // of the point that is nearest across the line of sight
+  IntLanes number;  // index of the nearest point perpendicular to the line of sight
 };
 
 OSSA_CPU_DISPATCH void FindNearest(const Surface& surface, const float* place, const float* ray,
@@ -70,7 +70,7 @@ OSSA_CPU_DISPATCH void FindNearest(const Surface& surface, const float* place, c
   *out = near;
 }
 
-// Of points equally near the first counts, whichever lane it went through.
+// Ties are resolved by index, independent of the lane.
 Nearest NearestTo(const Surface& surface, const Eigen::Vector3f& place_m,
                   const Eigen::Vector3f& ray) {
   Nearest nearest;
@@ -139,12 +139,12 @@ class FeatureBuilder {
       Add(static_cast<float>(marginal.confidence[m]));
       Add(static_cast<float>(marginal.weight[m]));
       Add(static_cast<float>(Evaluate(target.visible, modes[m].feature)));
-      Add(modes[m].feature[0]);  // surface of the target's classes
-      Add(modes[m].feature[1]);  // votes
+      Add(modes[m].feature[0]);  // contribution of the target's classes
+      Add(modes[m].feature[1]);  // contribution of votes
     }
   }
 
-  // How much surface each class has, where, and how far spread.
+  // Area, position and spread of each class.
   void AddClasses() {
     for (size_t c = 1; c < static_cast<size_t>(evidence_.class_count); ++c) AddClass(c);
   }
@@ -188,7 +188,7 @@ class FeatureBuilder {
     Add(Eigen::Vector3f((square / whole - mean * mean).max(0.0F).sqrt()));
   }
 
-  // How far inside the image a place is seen: of the nearer side, the upper and the lower border.
+  // Distance of a position from the nearer side border, and from the upper and lower border.
   void AddBorders(const Eigen::Vector3d& place_m) {
     const double z_m = std::max(place_m.z(), 0.1);
     const double u = camera_.cx - camera_.fx * place_m.x() / z_m;
@@ -199,8 +199,9 @@ class FeatureBuilder {
     }
   }
 
-  // How near surface is at all; how near across the line of sight, and how far it lies behind the
-  // place there: before it, something hides the place, far behind, nothing can be there.
+  // Distance to the nearest surface in 3D; distance perpendicular to the line of sight, and depth
+  // of the surface behind the position there: in front, something occludes the position; far
+  // behind, it is free space.
   void AddNearestSurface(const Eigen::Vector3f& place_m) {
     const Eigen::Vector3f ray = (place_m + RootFromCamera()).normalized();
     const Nearest nearest = NearestTo(surface_, place_m, ray);
@@ -209,7 +210,7 @@ class FeatureBuilder {
     Add(std::clamp(nearest.behind_m, -kSurfaceReach_m, kSurfaceReach_m));
   }
 
-  // In the frame's axes.
+  // The camera's origin in frame axes.
   Eigen::Vector3f RootFromCamera() const {
     return {0.0F, 0.0F, static_cast<float>(features_.frame.middle_m.norm())};
   }
@@ -219,10 +220,10 @@ class FeatureBuilder {
   const JointFeatures& features_;
   std::vector<float> value_;
   Surface surface_;
-  std::vector<uint32_t> picked_;  // samples of the class at hand
+  std::vector<uint32_t> picked_;  // samples of the current class
 };
 
-// About the mean of the places, those of little support less.
+// The frame at the mean of the positions, weighted by their support.
 ViewFrame PlaceFrame(const std::vector<Eigen::Vector3d>& places_m, const PoseMarginals& marginals) {
   constexpr double kLeastSupport = 0.05;  // by hand; part of every shipped model; share
   std::vector<double> weights;

@@ -2,8 +2,8 @@
 #include "depth/base/lanes.h"
 #include "forest/proposals/modes_internal.h"
 
-// Every dispatched variant adds in the same eight lanes, and none may contract a product and a sum,
-// so that each machine gives the same bits.
+// All CPU variants sum in the same eight lanes without fused multiply-add, so that every machine
+// gives the same bits.
 namespace ossa::forest {
 namespace {
 
@@ -14,8 +14,8 @@ struct LaneSums {
   Lanes z = {};
 };
 
-// Departure: the Gaussian exp(-r²/2b²) is taken as (1 - r²/(16 b²))^8, which is within 0.03 of it,
-// is zero beyond 4 b, and needs no exponential.
+// Departure: the Gaussian exp(-r²/2b²) is approximated by (1 - r²/(16 b²))^8, within 0.03, which is
+// zero beyond 4 b and needs no exponential.
 template <bool kMoment>
 [[gnu::always_inline]] inline void Accumulate(const WeightedPoints& points, const float* at,
                                               float inverse, LaneSums* out) {

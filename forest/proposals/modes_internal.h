@@ -10,8 +10,8 @@
 
 namespace ossa::forest {
 
-/// Weighted points of a density estimate, one array a coordinate (metres) for the vector units,
-/// filled up with points without weight.
+/// Weighted points of a density estimate, one array per coordinate (metres) for vectorisation,
+/// padded with points of zero weight.
 class WeightedPoints {
  public:
   explicit WeightedPoints(size_t most) {
@@ -38,20 +38,20 @@ struct KernelSum {
   Eigen::Vector3f moment = Eigen::Vector3f::Zero();
 };
 KernelSum SumKernels(const WeightedPoints& points, const Eigen::Vector3f& at_m, float bandwidth_m);
-/// The same density without the moment: two thirds of the time.
+/// The density alone, in two thirds of the time.
 float Density(const WeightedPoints& points, const Eigen::Vector3f& at_m, float bandwidth_m);
 
-/// What an object's pixels say, before any target's parameters come in: an array for each quantity,
-/// a value in it for each sample of the pixels, filled up with samples that say nothing.
+/// The evidence of an object's pixels, independent of targets: one array per quantity, one value
+/// per sample, padded with zero-weight samples.
 struct Evidence {
   int class_count = 0;
-  size_t count = 0;                  // of samples
+  size_t count = 0;                  // number of samples
   std::vector<float> x_m, y_m, z_m;  // surface
-  std::vector<float> distance_m;     // of it from the camera
-  std::vector<float> area_m2;        // of surface that the sample stands for
+  std::vector<float> distance_m;     // distance of the surface from the camera
+  std::vector<float> area_m2;        // surface area that the sample represents
   std::vector<float> probability;    // class × stride
   std::vector<Vote> votes;           // target × stride
-  float context_certainty = 1.0F;    // largest posterior
+  float context_certainty = 1.0F;    // largest posterior probability
 
   size_t stride() const { return area_m2.size(); }
   Eigen::Vector3f surface_m(size_t i) const { return {x_m[i], y_m[i], z_m[i]}; }
@@ -61,26 +61,26 @@ struct Evidence {
 Evidence GatherEvidence(const ForestModel& model, const depth::DepthView& depth,
                         const depth::Camera& camera, const Classification& classification);
 
-/// The points whose density a target's modes are sought in.
+/// The points of a target's density.
 struct TargetPoints {
   WeightedPoints points;
-  WeightedPoints surface;  // the class part of them, weights in reference areas
+  WeightedPoints surface;  // the part from classes, weights in reference areas
   float vote_total = 0.0F;
 };
 TargetPoints GatherPoints(const Evidence& evidence, const ProposalTarget& target,
                           size_t target_index);
 
-/// A mode with what its confidence is computed from.
+/// A mode and the features of its confidence.
 struct Mode {
   Eigen::Vector3f position_m = Eigen::Vector3f::Zero();
   float density = 0.0F;
   std::array<float, ModeConfidence::kFeatures> feature{};
 };
-/// Modes of a target's density, densest first; none without evidence.
+/// The modes of a target's density, by descending density; none without evidence.
 std::vector<Mode> FindModes(const Evidence& evidence, const ProposalTarget& target,
                             size_t target_index);
 
-/// P by the logistic function.
+/// Probability by the logistic function.
 template <size_t N>
 double Evaluate(const Logistic<N>& logistic, const std::array<float, N>& feature) {
   double sum = logistic.bias;

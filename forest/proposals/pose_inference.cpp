@@ -1,9 +1,9 @@
-// Mean shift looks for each target by itself; but an arm does not leave its shoulder. The positions
-// of all targets of an object seen in one context follow a factor model (learned from training
-// truth). Each target's modes are alternatives, or all wrong: y ~ Σ_m w_m N(x, s²) + w_0 ·
-// constant. Expectation propagation (Minka 2001): a target's prediction by all others (its
-// "cavity") weighs its modes; the weighed modes speak in the predictions of the others; three
-// rounds after the first are enough.
+// Mean shift finds each target independently, but joints are connected. The positions of all
+// targets of an object seen in one context follow a factor model (learned from training truth).
+// Each target's modes are alternatives, or all wrong: y ~ Σ_m w_m N(x, s²) + w_0 · constant.
+// Expectation propagation (Minka 2001): the prediction of a target by all others (its "cavity")
+// weights its modes; the weighted modes then contribute to the predictions of the others. Three
+// rounds after the first suffice.
 #include "forest/proposals/pose_inference_internal.h"
 
 #include <Eigen/Dense>
@@ -18,22 +18,22 @@ namespace {
 
 // Constants: chosen by hand on validation subjects (`ossa evaluate`).
 
-constexpr int kRounds = 4;  // the first with the modes' own confidences
+constexpr int kRounds = 4;  // including the first, with the modes' own confidences
 constexpr double kModeNoise_m = 0.03;
-constexpr double kStrayDensity = 4;   // of modes that are not the target's, a cubic metre
-constexpr double kMostTrust = 0.97;   // of all modes of a target together; probability
+constexpr double kStrayDensity = 4;   // density of false modes, per cubic metre
+constexpr double kMostTrust = 0.97;   // maximum of the sum over a target's modes; probability
 constexpr double kLeastTrust = 1e-3;  // probability
-constexpr double kContextRange = 4;   // nats below the likeliest context: not looked at; no unit
-constexpr double kApart_m = 0.08;     // modes nearer to the fused place are part of it
+constexpr double kContextRange = 4;   // nats below the likeliest context: skipped; no unit
+constexpr double kApart_m = 0.08;     // modes nearer to the fused position are merged into it
 constexpr double kMostMargin = 6;     // no unit: nats
 constexpr double kMostDistance = 8;   // standard deviations
 
-// An object's modes about their own centre, in the form that all pose priors are tried on.
+// An object's modes relative to their centre, in the form that all pose priors share.
 struct Observed {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
   std::vector<std::vector<Eigen::Vector3d>> position_m;  // target, mode
-  std::vector<std::vector<double>> trust;                // of a mode by itself
-  std::vector<double> stray_trust;                       // that none is right
+  std::vector<std::vector<double>> trust;                // prior trust in each mode
+  std::vector<double> stray_trust;                       // trust in none being right
 };
 
 Observed Observe(const ForestModel& model, const TargetModes& modes) {
@@ -80,7 +80,7 @@ Site MakeSite(const Observed& observed, size_t t, const std::vector<double>& wei
   return site;
 }
 
-// Weighs a target's modes by its prediction; returns log of their likelihood.
+// Weights a target's modes by its prediction; returns the log-likelihood of the modes.
 double Weigh(const Observed& observed, size_t t, TargetMarginal* marginal) {
   const Eigen::Matrix3d spread =
       marginal->covariance_m2 + kModeNoise_m * kModeNoise_m * Eigen::Matrix3d::Identity();
@@ -97,7 +97,7 @@ double Weigh(const Observed& observed, size_t t, TargetMarginal* marginal) {
   return std::log(whole);
 }
 
-// PoseMarginals under one prior; `log_likelihood` receives how well the modes fit it.
+// PoseMarginals under one prior; `log_likelihood` receives the fit of the modes.
 std::vector<TargetMarginal> InferUnder(const FactorModel& model, const Observed& observed,
                                        double* log_likelihood) {
   std::vector<TargetMarginal> marginals(observed.trust.size());
@@ -124,7 +124,7 @@ float Logit(double p) {
   return static_cast<float>(std::log(clipped / (1.0 - clipped)));
 }
 
-// The numbers that say how much of a person agrees.
+// Features of the overall agreement of a person's targets.
 void Summarise(const ForestModel& model, const TargetModes& modes, PoseMarginals* marginals) {
   const size_t targets = marginals->target.size();
   std::vector<double> trusted(targets, 0.0);
@@ -185,7 +185,7 @@ Eigen::Vector3d Fuse(const TargetMarginal& marginal, const std::vector<Mode>& mo
   const size_t heaviest = static_cast<size_t>(
       std::max_element(marginal.weight.begin(), marginal.weight.end()) - marginal.weight.begin());
   for (size_t m = 0; m < modes.size(); ++m) {
-    // Modes far apart are alternatives: between them lies nothing.
+    // Distant modes are alternatives and must not be averaged.
     if ((modes[m].position_m - modes[heaviest].position_m).norm() > kApart_m) continue;
     const double weight = marginal.weight[m] / (mode_noise_m * mode_noise_m);
     whole += weight * Eigen::Matrix3d::Identity();
@@ -206,7 +206,7 @@ std::vector<PlaceCandidate> Candidates(const ProposalTarget& target, const PoseM
     candidates[0].refined_confidence = refined->confidence;
   }
   std::vector<std::array<double, 2>> own = {{0.0, marginal.support()}};  // confidence, weight
-  double heaviest = 0.05;  // below, no mode has a say worth naming
+  double heaviest = 0.05;  // threshold of a relevant mode
   for (size_t m = 0; m < modes.size(); ++m) {
     own[0][0] += marginal.weight[m] * marginal.confidence[m] / std::max(marginal.support(), 1e-6);
     if (marginal.weight[m] > heaviest) {

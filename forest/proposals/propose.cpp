@@ -1,8 +1,8 @@
-// Shotton et al. 2011, sec. 3.3 (weighted mean shift on classified surface, eqs. 7-8) joined with
+// Shotton et al. 2011, sec. 3.3 (weighted mean shift on classified surface, eqs. 7-8) combined with
 // the position votes of Girshick et al. 2011: a target's density is
 //   D(x) = class_weight · Σ_i P(c|i) · area_i · K(x - s_i) / A0  +  Σ_j w_j · K(x - v_j) / Σ_j w_j
-// over pushed-back surface points s_i and votes v_j. Surface speaks where the joint is seen; votes
-// speak for joints that are hidden.
+// for pushed-back surface points s_i and votes v_j. Classified surface locates visible joints,
+// votes also hidden ones.
 #include "forest/proposals/propose.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 constexpr size_t kStarts = 12;
 constexpr size_t kClimbs = 3;
 constexpr int kMaxSteps = 20;
-constexpr float kStopStep_m = 2e-3F;  // the mode is then within a centimetre at most
+constexpr float kStopStep_m = 2e-3F;  // convergence within a centimetre
 
 std::vector<Eigen::Vector3f> StartPoints(const WeightedPoints& points, float bandwidth_m) {
   std::vector<std::pair<float, size_t>> by_density;
@@ -74,7 +74,7 @@ void KeepDistinct(std::vector<Mode>* modes, float bandwidth_m) {
   *modes = std::move(kept);
 }
 
-// In double precision, which every processor's library rounds alike.
+// Double precision: every math library rounds it alike.
 float Log1p(float x) { return static_cast<float>(std::log1p(static_cast<double>(x))); }
 
 void DescribeModes(const Evidence& evidence, const TargetPoints& points,
@@ -110,7 +110,7 @@ std::vector<std::vector<Proposal>> ProposeSingly(const ForestModel& model,
   return proposals;
 }
 
-// What modes and other targets agree on, and modes that stand apart from it.
+// Proposes fused positions and separate modes.
 std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model,
                                                    const PoseMarginals& marginals,
                                                    const TargetModes& modes,
@@ -124,7 +124,7 @@ std::vector<std::vector<Proposal>> ProposeTogether(const ForestModel& model,
       if (candidate.mode >= 0) {
         proposal = ProposalAt(target, modes[t][static_cast<size_t>(candidate.mode)]);
       } else {
-        proposal.seen = false;  // the other targets alone speak
+        proposal.seen = false;  // inferred from the other targets only
       }
       proposal.position_m = candidate.position_m;
       proposal.confidence = ComputeConfidence(target, candidate);

@@ -1,7 +1,7 @@
-// The second stage of recognition, cascaded pose regression of one stage (Dollar et al. 2010;
-// Toshev and Szegedy 2014): a perceptron of one hidden layer that knows how the first stage errs.
-// It reads all modes, marginals and parts of an object at once (joint_features.cpp) and says of
-// each target how far it lies from where the first stage puts it, and how sure that is.
+// The second stage of recognition, a single stage of cascaded pose regression (Dollar et al. 2010;
+// Toshev and Szegedy 2014): a perceptron with one hidden layer that corrects the errors of the
+// first stage. From all modes, marginals and parts of an object (joint_features.cpp) it predicts
+// each target's offset from the first stage's position, and its confidence.
 #include "forest/proposals/refinement_internal.h"
 
 #include <cmath>

@@ -12,22 +12,21 @@
 
 namespace ossa::forest {
 
-/// What the refinement reads of an object, and the places that it moves.
+/// The refinement's input for an object, and the positions that it moves.
 struct JointFeatures {
-  ViewFrame frame;                       // about the places' middle
-  std::vector<Eigen::Vector3d> place_m;  // of each target, camera axes: modes and prediction fused
+  ViewFrame frame;                       // at the mean position
+  std::vector<Eigen::Vector3d> place_m;  // per target, camera axes: modes and prediction fused
   Eigen::RowVectorXf value;              // JointFeatureCount numbers
 };
 
-/// All that earlier stages found of one object, as numbers in a frame that stands in it.
+/// Encodes the results of earlier stages in a frame centred on the object.
 JointFeatures ComputeJointFeatures(const ForestModel& model, const depth::Camera& camera,
                                    const Evidence& evidence,
                                    std::span<const float> context_posterior,
                                    const TargetModes& modes, const PoseMarginals& marginals);
 
-/// The places as the refinement moves them, one a target. Its outputs: per target an offset
-/// (OffsetScale's default), then for all targets the logit of the confidence. Precondition: it has
-/// layers.
+/// The refined positions, one per target. Network outputs: one offset per target (OffsetScale's
+/// default), then the logits of all targets' confidences. Precondition: it has layers.
 std::vector<RefinedPlace> Refine(const RoundedPerceptron& refinement,
                                  const JointFeatures& features);
 

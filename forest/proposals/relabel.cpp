@@ -1,10 +1,10 @@
 // Shotton et al. 2011 label each pixel by the depths around it, and joints follow from the labels.
-// Departure: the joints, which the whole object helped to find, speak back to the labels:
+// Departure: the joints, which depend on the whole object, in turn correct the labels:
 //   P(c | pixel) ∝ (P_trees(c | pixel) + small) · exp(score_c(x)),
 //   score_c(x) = b_c + Σ_t Σ_s (w_cts + confidence_t · v_cts) · N_s(|x - x_t|),
-// with x the pixel's surface point, x_t the place proposed for target t, and N_s three measures of
-// nearness that fall with distance, fast and slowly. It is multinomial logistic regression with the
-// trees' opinion as a given offset; b, w, v are learned on images that the trees have not seen.
+// with x the pixel's surface point, x_t the position proposed for target t, and N_s three radial
+// basis functions, from narrow to wide. It is multinomial logistic regression with the trees'
+// log-probabilities as an offset; b, w, v are learned on images that the trees have not seen.
 #include "forest/proposals/relabel.h"
 
 #include <algorithm>
@@ -20,21 +20,21 @@ namespace {
 
 // Constants: chosen by hand; part of every shipped model.
 
-constexpr float kReach_m = 0.4F;  // where the slowest radial basis has fallen to a half
-// Scores change slowly: pixels so close together share them, those of one surface at least.
+constexpr float kReach_m = 0.4F;  // distance at which the widest radial basis has fallen to a half
+// Scores are smooth: pixels of one surface within this distance share them.
 constexpr double kSpot_m = 0.04;
 constexpr int kSameSurface_mm = 60;
 constexpr int kMostSpot_px = 16;
 
-// Places where scores are computed.
+// Positions at which scores are evaluated.
 struct Spots {
   std::vector<Eigen::Vector3f> point_m;
-  std::vector<uint32_t> of_pixel;  // of each of the classification's pixels
+  std::vector<uint32_t> of_pixel;  // spot of each of the classification's pixels
 };
 
 int SpotSize_px(const depth::DepthView& depth, const depth::Camera& camera,
                 const std::vector<int32_t>& pixels) {
-  constexpr size_t kSamples = 256;  // their mean is good enough
+  constexpr size_t kSamples = 256;  // sufficient for the mean depth
   const size_t step = std::max<size_t>(1, pixels.size() / kSamples);
   int64_t sum_mm = 0;
   int64_t samples = 0;
@@ -45,10 +45,10 @@ int SpotSize_px(const depth::DepthView& depth, const depth::Camera& camera,
   return std::clamp(static_cast<int>(kSpot_m * camera.fx / mean_m), 1, kMostSpot_px);
 }
 
-// The image in squares; a square that shows two surfaces has a spot on each.
+// One spot per image square; one per surface if a square shows two.
 Spots ChooseSpots(const depth::DepthView& depth, const depth::Camera& camera,
                   const std::vector<int32_t>& pixels) {
-  struct Last {  // spot of a square
+  struct Last {  // current spot of a square
     uint32_t spot = 0;
     int row = -1;
     int depth_mm = 0;
@@ -62,11 +62,11 @@ Spots ChooseSpots(const depth::DepthView& depth, const depth::Camera& camera,
   spots.of_pixel.reserve(pixels.size());
   int v = 0;
   for (const int32_t pixel : pixels) {
-    while (pixel >= (v + 1) * depth.width) ++v;  // pixels ascend: no division
+    while (pixel >= (v + 1) * depth.width) ++v;  // pixels are ascending: avoids a division
     const int u = pixel - v * depth.width;
     const int mm = depth.at(u, v);
     Last& here = last[static_cast<size_t>(square_of[static_cast<size_t>(u)])];
-    const int since = v - here.row;  // the first row of the square
+    const int since = v - here.row;  // first row of the square
     if (here.row < 0 || since >= size || std::abs(mm - here.depth_mm) > kSameSurface_mm) {
       const int row = v - v % size;
       here = {static_cast<uint32_t>(spots.point_m.size()), row, mm};
@@ -95,7 +95,7 @@ OSSA_CPU_DISPATCH void EvaluateRadialBasis(const Anchors& anchors, const Eigen::
   }
 }
 
-// 2^x for x <= 0 to a thousandth; the library's is not the same on every machine.
+// 2^x for x <= 0, accurate to a thousandth; library versions differ between machines.
 inline float Exp2(float x) {
   constexpr int kLeastExponent = -60;
   const int below = static_cast<int>(x) - 1;
@@ -105,14 +105,14 @@ inline float Exp2(float x) {
   return fraction * std::bit_cast<float>((exponent + 127) << 23);
 }
 
-// exp(score - the largest one's), in place; scores in log 2.
+// exp(score - largest score), in place; scores are base-2 logarithms.
 OSSA_CPU_DISPATCH void ToFactors(float* score, size_t count) {
   float most = score[0];
   for (size_t c = 1; c < count; ++c) most = score[c] > most ? score[c] : most;
   for (size_t c = 0; c < count; ++c) score[c] = Exp2(score[c] - most);
 }
 
-// The scores' weights for these anchors: point nearness × class.
+// Score weights for these anchors: basis function × class.
 RowMatrix ComputeWeights(const Relabelling& prior, const Anchors& anchors, Eigen::Index classes) {
   const auto targets = static_cast<Eigen::Index>(anchors.x.size());
   const Eigen::Index rows = targets * static_cast<Eigen::Index>(kRadialBasisScales);
@@ -124,7 +124,7 @@ RowMatrix ComputeWeights(const Relabelling& prior, const Anchors& anchors, Eigen
   return weight;
 }
 
-// Spot × stride: what the trees' probabilities are multiplied with; columns beyond the classes: 0.
+// Spot × stride: factors of the trees' probabilities; 0 in padding columns.
 RowMatrix ComputeFactors(const Relabelling& prior, const Anchors& anchors, const Spots& spots,
                          Eigen::Index stride) {
   constexpr float kLog2OfE = 1.44269504F;  // no unit; by definition
@@ -142,8 +142,8 @@ RowMatrix ComputeFactors(const Relabelling& prior, const Anchors& anchors, const
   return factor;
 }
 
-// Column of the largest product; the first of equals. The bits of positive numbers are ordered as
-// the numbers are: the last eight of them carry the column.
+// Column of the largest product; the first of equals. Bits of positive floats sort like their
+// values: the last eight bits carry the column.
 OSSA_CPU_DISPATCH uint8_t Likeliest(const uint16_t* mass, float scale, const float* factor,
                                     size_t columns) {
   constexpr int32_t kColumnBits = 0xff;
@@ -191,14 +191,14 @@ std::vector<uint8_t> Relabel(const ForestModel& model, const depth::DepthView& d
   const Spots spots = ChooseSpots(depth, camera, classification.pixel);
   const size_t stride = classification.mass_stride;
   const RowMatrix factor = ComputeFactors(prior, anchors, spots, static_cast<Eigen::Index>(stride));
-  // Pixels that share sample and spot share the label: each sample knows its last.
+  // Pixels with the same sample and spot have the same label: cache the last one per sample.
   struct Last {
     uint32_t spot = ~0U;
     uint8_t label = 0;
   };
   std::vector<Last> last(classification.mass_scale.size());
   for (size_t i = 0; i < label.size(); ++i) {
-    if (label[i] == 0) continue;  // the trees say nothing of it
+    if (label[i] == 0) continue;  // unlabelled by the trees
     const auto sample = static_cast<size_t>(classification.sample[i]);
     const uint32_t spot = spots.of_pixel[i];
     if (last[sample].spot != spot) {

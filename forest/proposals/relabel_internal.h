@@ -8,8 +8,8 @@
 
 namespace ossa::forest {
 
-/// Where the targets of an object were proposed, the best place of each; one array a coordinate for
-/// the vector units. A target that was not proposed is too far away to be near anything.
+/// The best proposed position of each target of an object, one array per coordinate for
+/// vectorisation. Targets without a proposal are too far away to matter.
 struct Anchors {
   std::vector<float> x, y, z;  // metres
   std::vector<float> confidence;
@@ -17,11 +17,11 @@ struct Anchors {
   explicit Anchors(const std::vector<std::vector<Proposal>>& proposals);
 };
 
-/// How near points (a row each) are to the anchors: point × (scale · target), kRadialBasisScales of
-/// them (forest.h), all in [0, 1].
+/// Radial basis functions of points (one per row) around the anchors: point × (scale · target),
+/// with kRadialBasisScales scales (forest.h), all in [0, 1].
 RowMatrix ComputeRadialBasis(const Anchors& anchors, const std::vector<Eigen::Vector3f>& points_m);
 
-/// Added to probabilities of the trees: a class that no leaf gave a pixel is not impossible.
+/// Added to the trees' probabilities: classes without any leaf mass remain possible.
 inline constexpr float kLeastLeafProbability = 1e-3F;  // by hand
 
 }  // namespace ossa::forest

@@ -1,5 +1,5 @@
-// What speaks for a target: surface of its classes, pushed back into the body, and position votes.
-// Numbers of all samples are computed side by side; then the few samples that count are picked out.
+// Points of a target's density: surface of its classes, pushed back into the body, and position
+// votes. All samples are processed by vector code; then the relevant ones are selected.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,17 +15,17 @@ namespace {
 
 // Constants: chosen by hand.
 
-constexpr float kReferenceArea_m2 = 0.004F;  // A0: about the seen surface of an elbow
+constexpr float kReferenceArea_m2 = 0.004F;  // A0: about the visible surface of an elbow
 constexpr float kNoVote = -1.0F;             // a weight
 
-// Byte number kByte of each vote, centimetres with a sign.
+// Byte kByte of each vote as signed centimetres.
 template <int kByte>
 [[gnu::always_inline]] inline void Offset_m(const IntLanes& votes, Lanes* out) {
   constexpr int kAbove = 24 - 8 * kByte;
   *out = __builtin_convertvector(votes << kAbove >> 24, Lanes) * 0.01F;
 }
 
-// The weight of each sample's vote; kNoVote where it has none, or one that is too long.
+// The weight of each sample's vote; kNoVote if there is none or it is too long.
 static_assert(std::endian::native == std::endian::little && sizeof(Vote) == sizeof(int32_t));
 OSSA_CPU_DISPATCH void WeighVotes(const Vote* vote, const float* area_m2, size_t count,
                                   float sharpness_m, float longest_m2, float* weight) {
@@ -51,8 +51,8 @@ OSSA_CPU_DISPATCH void AddRow(const float* row, size_t count, float* sum) {
   for (size_t i = 0; i < count; ++i) sum[i] += row[i];
 }
 
-// The largest number whose root is at most `root`: comparing with it needs no roots. Negative where
-// there is none.
+// The largest number whose root is at most `root`: compares squares without taking roots. Negative
+// if there is none.
 float LargestSquare(float root) {
   if (root < 0.0F) return -1.0F;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -63,7 +63,7 @@ float LargestSquare(float root) {
   return square;
 }
 
-// Probability of the target's classes.
+// Sum of the probabilities of the target's classes.
 std::vector<float> SumProbabilities(const Evidence& evidence, const ProposalTarget& target) {
   std::vector<float> sum(evidence.stride(), 0.0F);
   for (const uint8_t c : target.classes) {
@@ -73,9 +73,9 @@ std::vector<float> SumProbabilities(const Evidence& evidence, const ProposalTarg
 }
 
 struct Votes {
-  std::vector<float> weight;     // of each sample's
-  std::vector<uint32_t> picked;  // samples whose votes count
-  float total = 0.0F;            // of all weights
+  std::vector<float> weight;     // per sample
+  std::vector<uint32_t> picked;  // samples with relevant votes
+  float total = 0.0F;            // sum of all weights
 };
 
 Votes CountVotes(const Evidence& evidence, const ProposalTarget& target, size_t index) {
@@ -89,7 +89,7 @@ Votes CountVotes(const Evidence& evidence, const ProposalTarget& target, size_t 
     voters += votes.weight[i] >= 0.0F ? 1 : 0;
   }
   if (votes.total <= 0) return votes;
-  // Most votes are vague and weigh next to nothing: those of a fifth of the mean are left out.
+  // Most votes have negligible weight: those below a fifth of the mean are dropped.
   const float mean = votes.total / static_cast<float>(voters);
   votes.picked.resize(evidence.count);
   votes.picked.resize(

@@ -16,10 +16,10 @@ namespace {
 
 // Constants: chosen by hand, for speed.
 
-constexpr size_t kBlock = 64;       // candidates whose histograms are filled at once
-constexpr int kContextLevels = 12;  // below, nodes split for the class only
+constexpr size_t kBlock = 64;       // candidates per histogram block
+constexpr int kContextLevels = 12;  // deeper nodes split for the class only
 
-// The side of a split that a sample takes.
+// The child that a sample goes to.
 int32_t Child(const Node& node, const ObjectImage& image, const PixelSample& sample) {
   const uint16_t* depth = image.depth_mm.data();
   const auto d_mm = static_cast<float>(depth[image.At(sample.x, sample.y)]);
@@ -50,7 +50,7 @@ TreeGrower::TreeGrower(const ImageParts& parts, const TrainOptions& options, con
   DrawSamples();
 }
 
-// Each tree looks at its own share of the pixels drawn from an image.
+// Each tree uses its own subset of the pixels drawn from an image.
 void TreeGrower::DrawSamples() {
   const int drawn = std::max(options_.pixels, options_.refill_pixels);
   const auto keep_below = static_cast<uint64_t>(static_cast<double>(options_.pixels) / drawn *
@@ -87,7 +87,7 @@ void TreeGrower::Place(const GrowingTree& tree) {
   CountFrontier(tree);
 }
 
-// Sends the samples of the nodes just split to their children.
+// Moves the samples of split nodes to their children.
 void TreeGrower::Route(const GrowingTree& tree) {
   parts_.Visit([&](size_t p, const std::vector<StoredImage>& images) {
     Part& part = samples_[p];
@@ -171,7 +171,8 @@ std::vector<TreeGrower::Task> TreeGrower::MakeTasks(const GrowingTree& tree) con
   return tasks;
 }
 
-// The node's samples in one part, thinned to node_pixels over all parts and ranks, label by label.
+// Collects the node's samples in one part, subsampled to node_pixels over all parts and ranks,
+// grouped by label.
 void TreeGrower::Collect(const Task& task, const GrowingTree& tree, const Part& part,
                          const std::vector<StoredImage>& images, std::vector<SampleRef>* refs,
                          std::vector<LabelRun>* runs) const {
@@ -200,7 +201,8 @@ void TreeGrower::Collect(const Task& task, const GrowingTree& tree, const Part& 
   }
 }
 
-// All images at hand: each node by itself, its histograms block by block within the caches.
+// All images are in memory: nodes are processed independently, with histogram blocks that fit the
+// cache.
 void TreeGrower::SplitInMemory(const GrowingTree& tree, std::vector<Task>* tasks) {
   struct Scratch {
     std::vector<SampleRef> refs;
@@ -238,8 +240,8 @@ void TreeGrower::SplitInMemory(const GrowingTree& tree, std::vector<Task>* tasks
   evaluations_ += evaluations;
 }
 
-// Images in parts or on several ranks: whole histograms of a group of nodes are filled part by
-// part, added over the ranks, then searched. Integers, so that the splits are the same.
+// Images in parts or on several ranks: complete histograms of a group of nodes are accumulated part
+// by part, summed over the ranks, then searched. Integer sums give the same splits.
 void TreeGrower::SplitInParts(const GrowingTree& tree, std::vector<Task>* tasks) {
   const uint64_t budget = std::max<uint64_t>(options_.memory_bytes / 4, uint64_t{64} << 20U);
   size_t first = 0;

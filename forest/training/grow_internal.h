@@ -16,7 +16,7 @@ struct GrowingTree {
   int level = 0;
 };
 
-/// What one level did.
+/// Result of growing one level.
 struct LevelReport {
   size_t nodes_split = 0;
   size_t frontier = 0;
@@ -25,39 +25,39 @@ struct LevelReport {
   double seconds = 0.0;
 };
 
-/// Grows one tree on this rank's images, level by level, in step with the other ranks.
+/// Grows one tree level by level on this rank's images, synchronously with the other ranks.
 class TreeGrower {
  public:
   TreeGrower(const ImageParts& parts, const TrainOptions& options, const Reducer& reducer,
              size_t class_count, size_t context_count, int tree_number);
 
-  /// Puts every sample where `tree` sends it; needed before the first GrowLevel.
+  /// Assigns every sample to its node of `tree`; call it before the first GrowLevel.
   void Place(const GrowingTree& tree);
-  /// Splits the frontier and makes its children the frontier.
+  /// Splits the frontier; its children become the new frontier.
   LevelReport GrowLevel(GrowingTree* tree);
   uint64_t sample_count() const { return sample_count_; }
 
  private:
   struct Sample {
-    uint32_t image = 0;  // within its part
+    uint32_t image = 0;  // index within its part
     uint32_t sample = 0;
     int32_t node = 0;
   };
   struct Part {
     std::vector<Sample> samples;
-    std::vector<uint32_t> order;  // samples of the frontier, by node
-    std::vector<size_t> begin;    // of each frontier node in `order`, and the end
+    std::vector<uint32_t> order;  // samples of the frontier, grouped by node
+    std::vector<size_t> begin;    // start of each frontier node in `order`, and the end
   };
-  // A frontier node worth splitting.
+  // A frontier node to split.
   struct Task {
     size_t node = 0;
-    uint64_t pixels = 0;  // over all ranks
+    uint64_t pixels = 0;  // sum over all ranks
     bool by_context = false;
-    std::vector<int32_t> histogram_row;  // of each label; -1: not present
+    std::vector<int32_t> histogram_row;  // per label; -1: not present
     size_t rows = 0;
-    CandidateSet set;  // dropped once searched
+    CandidateSet set;  // freed after the search
     Split split;
-    Node made;  // the node that makes the split
+    Node made;  // the resulting split node
   };
 
   void DrawSamples();

@@ -30,8 +30,8 @@ void CheckImage(const TrainingImage& image, size_t index, size_t class_count) {
   }
 }
 
-// Each class present gets an equal share of the draw; what small classes leave over goes to the
-// larger ones: the least of Σ min(available, share) that reaches `pixels`.
+// Each present class gets an equal share of the samples; what small classes leave unused goes to
+// larger ones: the smallest share for which Σ min(available, share) reaches `pixels`.
 size_t FairShare(const std::vector<std::vector<PixelSample>>& by_class, size_t pixels) {
   size_t low = 0;
   size_t high = pixels;
@@ -128,7 +128,7 @@ ImageParts::ImageParts(const TrainingSource& source, const TrainOptions& options
 
 std::vector<StoredImage> ImageParts::ReadPart(const std::vector<size_t>& indices) const {
   std::vector<StoredImage> images(indices.size());
-  // Blocks of neighbours: a data set decodes frames of one shard in turn.
+  // Blocks of consecutive images: data sets decode the frames of a shard in order.
   constexpr size_t kBlock = kReadBatch / 2;
   oneapi::tbb::parallel_for(size_t{0}, (indices.size() + kBlock - 1) / kBlock, [&](size_t block) {
     for (size_t i = block * kBlock; i < std::min(indices.size(), (block + 1) * kBlock); ++i) {

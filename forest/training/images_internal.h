@@ -9,7 +9,7 @@
 
 namespace ossa::forest {
 
-/// A pixel drawn from an image.
+/// A sampled pixel of an image.
 struct PixelSample {
   uint16_t x = 0;  // box coordinates
   uint16_t y = 0;
@@ -17,21 +17,21 @@ struct PixelSample {
   uint8_t unused = 0;
 };
 
-/// An image as training keeps it: the depth, a class-balanced draw of its pixels, and the truth.
+/// A training image in memory: depth, a class-balanced sample of its pixels, and the truth.
 struct StoredImage {
-  size_t index = 0;  // in the source
+  size_t index = 0;  // index in the source
   ObjectImage image;
   std::vector<PixelSample> samples;
   uint8_t context = 0;
-  depth::Camera camera;  // of the uncut box: back-projects box coordinates
+  depth::Camera camera;  // of the full box: back-projects box coordinates
   std::vector<Eigen::Vector3f> target_m;
 };
 
 StoredImage StoreImage(const TrainingImage& image, size_t index, int pixels, uint64_t seed,
                        uint16_t background_mm, size_t class_count);
 
-/// This rank's images, in parts that fit the memory allowed. One part is kept; several are read
-/// anew each time they are visited.
+/// This rank's images, in parts that fit into the memory limit. A single part is kept in memory;
+/// several are read again at each visit.
 class ImageParts {
  public:
   ImageParts(const TrainingSource& source, const TrainOptions& options, size_t class_count,
@@ -39,8 +39,8 @@ class ImageParts {
 
   size_t part_count() const { return parts_.size(); }
   size_t image_count() const { return image_count_; }
-  /// Calls visit(part, images) for every part in order. Throws TrainInterrupted before the next one
-  /// once TrainOptions::stop says so: a part takes as long to read as the memory allowed is large.
+  /// Calls visit(part, images) for every part in order. Checks TrainOptions::stop before each part,
+  /// and throws TrainInterrupted: reading a part may take long.
   void Visit(const std::function<void(size_t, const std::vector<StoredImage>&)>& visit) const;
   uint64_t context_count(size_t context) const { return context_counts_[context]; }
 
@@ -53,7 +53,7 @@ class ImageParts {
   const TrainOptions& options_;
   size_t class_count_;
   std::vector<std::vector<size_t>> parts_;  // source indices
-  std::vector<StoredImage> kept_;           // when there is one part
+  std::vector<StoredImage> kept_;           // if there is one part
   size_t image_count_ = 0;
   std::vector<uint64_t> context_counts_;
 };

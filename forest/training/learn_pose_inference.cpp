@@ -1,5 +1,5 @@
-// How far modes are trusted against the prediction by the other targets, and how likely the place
-// where both meet is right: fitted on images never trained on.
+// Learns how much modes are trusted relative to the prediction by other targets, and the
+// probability that the fused position is correct, on images never used for training.
 #include <oneapi/tbb/parallel_for.h>
 
 #include "forest/proposals/refinement_internal.h"
@@ -13,7 +13,7 @@ namespace {
 constexpr double kTrackedPrecision = 0.90;   // share
 constexpr double kInferredPrecision = 0.50;  // share
 
-// What was inferred of an image, and where the refinement, if there is one, puts the targets.
+// Inference results of an image, and the refined targets, if there is a refinement.
 struct InferredImage : FirstStage {
   std::vector<RefinedPlace> refined;
 
@@ -37,7 +37,7 @@ std::vector<InferredImage> InferAll(const ForestModel& model,
   return inferred;
 }
 
-// Hits within 10 cm, and half as much for being within 5 cm as well.
+// Number of hits within 10 cm, plus half for each within 5 cm.
 double Score(const std::vector<ValidationImage>& images, const std::vector<InferredImage>& inferred,
              size_t t, double noise_m) {
   double score = 0;
@@ -62,12 +62,12 @@ void TuneNoise(const std::vector<ValidationImage>& images,
   }
 }
 
-// A candidate and what is true of it.
+// A candidate with its ground truth.
 struct JudgedCandidate {
   PlaceCandidate candidate;
-  bool is_near = false;  // to the target's true position
-  bool visible = false;  // the target
-  bool seen = false;     // by what mean shift saw
+  bool is_near = false;  // near the target's true position
+  bool visible = false;  // whether the target is visible
+  bool seen = false;     // seen by mean shift
 };
 
 std::vector<JudgedCandidate> JudgeCandidates(const std::vector<ValidationImage>& images,
@@ -90,7 +90,7 @@ std::vector<JudgedCandidate> JudgeCandidates(const std::vector<ValidationImage>&
   return judged;
 }
 
-// P(within 10 cm) of the candidates that are fused, or of those that stand apart.
+// P(within 10 cm) of the fused or of the separate candidates.
 PlaceConfidence FitAgreement(const std::vector<JudgedCandidate>& judged, bool is_fused) {
   using Example = Judged<PlaceConfidence::kFeatures>;
   std::vector<Example> examples;
@@ -101,7 +101,7 @@ PlaceConfidence FitAgreement(const std::vector<JudgedCandidate>& judged, bool is
   return FitLogistic(examples, &Example::is_near);
 }
 
-// The least confidence from which on (by all of at least as much) the wanted share is right.
+// The smallest confidence threshold above which the requested precision holds.
 float FindThreshold(std::vector<std::pair<double, bool>> rated, double precision) {
   std::sort(rated.begin(), rated.end(),
             [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -145,7 +145,7 @@ ForestModel LearnPoseInference(const ForestModel& model,
   ForestData data = model.data();
   oneapi::tbb::parallel_for(size_t{0}, data.targets.size(), [&](size_t t) {
     ProposalTarget& target = data.targets[t];
-    // The refinement was learned with the noise as it is, and tells fused places' confidence
+    // The refinement was trained with this noise and predicts the confidence of fused positions
     // itself.
     const bool is_refined = !data.refinement.empty();
     if (!is_refined) TuneNoise(images, inferred, t, &target);

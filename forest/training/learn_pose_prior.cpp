@@ -1,5 +1,5 @@
-// Factor analysis of the targets' positions (Harman 1976, principal factors, iterated): what moves
-// together becomes a factor, what a target does by itself its noise.
+// Factor analysis of the targets' positions (Harman 1976, iterated principal factors): correlated
+// motion becomes factors, independent motion of a target its noise.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/Dense>
@@ -14,17 +14,18 @@
 namespace ossa::forest {
 namespace {
 
-constexpr Eigen::Index kFactors = 24;  // of 60 numbers of a person: 32 find no more joints, 16 less
+constexpr Eigen::Index kFactors = 24;  // for 60 numbers: 32 find no more joints, 16 fewer
 // Constants: chosen by hand.
 
 constexpr int kRounds = 8;
-constexpr double kLeastNoise_m = 0.014;  // of a target about what the factors say
-// Images' worth of all contexts' mean in each: some are rare; times an image's weight
+constexpr double kLeastNoise_m = 0.014;  // lower bound of a target's residual deviation
+// Weight of the mean over contexts in each, in images: some contexts are rare; times an image's
+// weight
 constexpr double kBorrowed = 5;
 
 struct Example {
   size_t context = 0;
-  Eigen::VectorXd position;  // target · 3, about their mean
+  Eigen::VectorXd position;  // target · 3, relative to their mean
 };
 
 std::optional<Example> MakeExample(const TrainingImage& image, size_t targets) {
@@ -89,7 +90,7 @@ PosePrior Analyse(const Moments& moments) {
     loading = solver.eigenvectors().rightCols(factors) *
               solver.eigenvalues().tail(factors).cwiseMax(0.0).cwiseSqrt().asDiagonal();
     noise = covariance.diagonal() - loading.rowwise().squaredNorm();
-    for (Eigen::Index t = 0; t < size; t += 3) {  // the same on each axis
+    for (Eigen::Index t = 0; t < size; t += 3) {  // the same for each axis
       const double variance = std::max(noise.segment<3>(t).mean(), kLeastNoise_m * kLeastNoise_m);
       noise.segment<3>(t).setConstant(variance);
     }
@@ -113,7 +114,7 @@ ForestModel LearnPosePriors(const ForestModel& model, const TrainingSource& sour
   const size_t targets = model.targets().size();
   const auto contexts = static_cast<size_t>(model.context_count());
   const auto examples = ReadExamples(source, targets, max_images);
-  // Fewer examples than numbers have no covariance worth having; two targets have nothing to agree.
+  // Fewer examples than numbers give no useful covariance; two targets have no structure.
   if (targets < 3 || examples.size() < 3 * targets) return model;
   const auto size = static_cast<Eigen::Index>(3 * targets);
   Moments whole(size);
@@ -124,7 +125,7 @@ ForestModel LearnPosePriors(const ForestModel& model, const TrainingSource& sour
   }
   ForestData data = model.data();
   data.pose_priors.clear();
-  data.refinement = Perceptron();  // was learned on the old ones
+  data.refinement = Perceptron();  // was trained on the old ones
   for (Moments& moments : of_context) {
     moments.Borrow(whole, kBorrowed);
     data.pose_priors.push_back(Analyse(moments));

@@ -1,6 +1,7 @@
-// What mean shift needs to know, learned on images never trained on: how many independent pixels a
-// figure's pixels count as, and for each target bandwidth, threshold, push-back and the shares of
-// the two kinds of votes (Shotton et al. 2011, sec. 3.3: "optimized on a hold-out validation set").
+// Learns the parameters of mean shift on images never used for training: the effective number of
+// independent pixels of a figure, and for each target bandwidth, threshold, push-back and the
+// weights of the two kinds of votes (Shotton et al. 2011, sec. 3.3: "optimized on a hold-out
+// validation set").
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/Dense>
@@ -35,7 +36,7 @@ ForestModel WithScale(const ForestModel& model, float scale) {
   return ForestModel(std::move(data));
 }
 
-// Truth of another vocabulary than the model's would be taken for what it is not.
+// Truth with another vocabulary than the model's would be misinterpreted.
 void CheckTruth(const ForestModel& model, const TrainingImage& image) {
   if (image.target_m.size() != model.targets().size()) {
     throw InputError("validation data: expected places of " +
@@ -49,11 +50,11 @@ void CheckTruth(const ForestModel& model, const TrainingImage& image) {
   }
 }
 
-// The scale under which the true contexts are likeliest.
+// The scale with the largest likelihood of the true contexts.
 float LearnEvidenceScale(const ForestModel& model, const TrainingSource& source,
                          const std::vector<size_t>& chosen) {
   if (model.context_count() < 2) return model.data().evidence_scale;
-  // With scale 1 the posterior gives the mean evidence back: log posterior - log prior + constant.
+  // With scale 1 the mean evidence can be recovered: log posterior - log prior + constant.
   const ForestModel unit = WithScale(model, 1.0F);
   const auto& prior = model.data().context_prior;
   std::vector<Eigen::VectorXd> evidence(chosen.size());
@@ -102,7 +103,7 @@ std::vector<ValidationImage> GatherAll(const ForestModel& model, const TrainingS
   return images;
 }
 
-// Hits within 10 cm, and a third as much for being within 5 cm as well.
+// Number of hits within 10 cm, plus a third for each within 5 cm.
 double Score(const std::vector<ValidationImage>& images, const ProposalTarget& target, size_t t) {
   double score = 0;
   for (const ValidationImage& image : images) {
@@ -120,7 +121,7 @@ struct Knob {
   std::vector<float> choices;
 };
 
-// Coordinate ascent over short lists: the score is flat near its top, a finer search buys nothing.
+// Coordinate ascent over short lists: the optimum is flat, so a finer search gains nothing.
 void TuneTarget(const std::vector<ValidationImage>& images, size_t t, ProposalTarget* target) {
   const std::vector<Knob> knobs = {
       {&ProposalTarget::class_weight, {0.0F, 0.1F, 0.3F, 1.0F, 3.0F}},

@@ -1,5 +1,5 @@
 // Learns the second stage (forest/proposals/refinement.cpp) on images that the trees have not seen:
-// on their own training images trees err much less than they will ever again.
+// on their own training images trees have unrealistically small errors.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/Dense>
@@ -19,16 +19,16 @@ namespace {
 
 // Constants: chosen by hand on validation subjects (`ossa evaluate`).
 
-constexpr float kWindow_m = 0.07F;        // a place so far off is worth 0.6 of a hit, at 10 cm 0.36
-constexpr float kPull = 0.1F;             // of places that are far off, against the hits; weight
-constexpr float kSoft_m = 0.02F;          // errors below pull less
+constexpr float kWindow_m = 0.07F;  // errors of this size count as 0.6 of a hit, of 10 cm 0.36
+constexpr float kPull = 0.1F;       // of distant positions relative to hits; weight
+constexpr float kSoft_m = 0.02F;    // smaller errors have smaller gradients
 constexpr float kConfidenceShare = 0.5F;  // share
 
-// What is known of images, a row each, and what the network should say. Input: image ×
-// JointFeatureCount; wanted: image × target · 3, offsets in refinement steps, NaN: not known.
+// Training examples, one image per row. Input: image × JointFeatureCount; wanted: image × target ·
+// 3, offsets in refinement steps, NaN: unknown.
 using Examples = PerceptronExamples;
 
-// False when nothing is seen.
+// False if nothing is visible.
 bool AddExample(const ForestModel& model, const TrainingImage& image, Eigen::Index row,
                 Examples* out) {
   const ValidationImage gathered = GatherImage(model, image);
@@ -73,9 +73,9 @@ Examples GatherExamples(const ForestModel& model, const TrainingSource& source,
   return examples;
 }
 
-// Gradient of the loss by the outputs. An error e costs 1 - exp(-e² / 2 w²), which counts misses,
-// and a little of its length, which draws places that are farther off than any window; the
-// confidence costs the cross entropy with whether the place is within 10 cm.
+// Gradient of the loss with respect to the outputs. An error e costs 1 - exp(-e² / 2 w²), which
+// counts misses, plus a little of its length, which attracts positions beyond the window; the
+// confidence costs the cross entropy with whether the position is within 10 cm.
 RowMatrix ComputeGradient(const RowMatrix& out, const RowMatrix& wanted) {
   const auto step_m = static_cast<float>(OffsetScale().step_m);
   const Eigen::Index targets = wanted.cols() / 3;
@@ -115,7 +115,7 @@ ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& sour
   network.hidden = {options.hidden};
   network.outputs = 4 * static_cast<Eigen::Index>(model.targets().size());
   network.epochs = options.epochs;
-  network.least_deviation = 1e-4;  // units of the inputs; by hand: small shares say something
+  network.least_deviation = 1e-4;  // units of the inputs; by hand: small shares are informative
   network.clip_inputs = true;
   network.seed = options.seed;
   network.progress = options.progress;

@@ -1,7 +1,7 @@
-// Learns the second look at labels (forest/proposals/relabel.cpp): multinomial logistic regression
-// of the true class on how near a pixel lies to the proposed targets, with the trees' probabilities
-// as a given offset. On images that neither trees nor refinement have seen: their proposals are
-// then as far off as they will be.
+// Learns the relabelling (forest/proposals/relabel.cpp): multinomial logistic regression of the
+// true class on a pixel's proximity to the proposed targets, with the trees' log-probabilities as
+// an offset. On images that neither trees nor refinement have seen, so that proposals have
+// realistic errors.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/Dense>
@@ -22,18 +22,18 @@ namespace {
 
 // Constants: chosen by hand on validation subjects (`ossa evaluate`).
 
-constexpr size_t kPixels = 60;  // of an image: more are much alike
+constexpr size_t kPixels = 60;  // per image: more are redundant
 constexpr Eigen::Index kBatch = 2048;
 constexpr int kEpochs = 5;
-constexpr float kRate = 0.02F;    // of Adam, at its highest; no unit
-constexpr float kDecay = 0.02F;   // of weights, a unit of the rate
-constexpr double kRarest = 1e-3;  // classes rarer than that count as if they were not; share
+constexpr float kRate = 0.02F;    // Adam's maximum learning rate; no unit
+constexpr float kDecay = 0.02F;   // weight decay per unit of the learning rate
+constexpr double kRarest = 1e-3;  // lower bound of a class frequency; share
 
-// Pixels of one image or of all, a row each.
+// Pixels of one or all images, one per row.
 struct LabelledPixels {
-  RowMatrix near;           // pixel × (scale · target), then the same times the confidences
+  RowMatrix near;           // pixel × (scale · target), then the same times confidence
   RowMatrix offset;         // pixel × class from 1 on: log P of the trees
-  std::vector<int> column;  // of the true class
+  std::vector<int> column;  // column of the true class
 };
 
 LabelledPixels Sample(const ForestModel& model, const TrainingImage& image) {
@@ -98,7 +98,7 @@ LabelledPixels Gather(const ForestModel& model, const TrainingSource& source) {
   return all;
 }
 
-// Classes count alike however many pixels they have: what is measured is the mean of the classes.
+// Classes have equal weight regardless of frequency: the metric is the mean over classes.
 std::vector<float> ComputeClassWeights(const std::vector<int>& column, Eigen::Index classes) {
   std::vector<double> count(static_cast<size_t>(classes), 0.0);
   for (const int c : column) count[static_cast<size_t>(c)] += 1.0;
@@ -111,7 +111,7 @@ std::vector<float> ComputeClassWeights(const std::vector<int>& column, Eigen::In
   return weight;
 }
 
-// Of the weighted cross entropy by the scores, a row a pixel.
+// Gradient of the weighted cross entropy with respect to the scores, one row per pixel.
 RowMatrix ComputeGradient(const RowMatrix& score, const LabelledPixels& pixels,
                           const std::vector<Eigen::Index>& chosen,
                           const std::vector<float>& weight) {

@@ -14,21 +14,21 @@ namespace {
 
 // Constants: of the format, the rest by hand.
 
-constexpr size_t kMaxEntries = 24;                    // a leaf; the rest is noise of a few pixels
+constexpr size_t kMaxEntries = 24;                    // per leaf; the rest is noise of a few pixels
 constexpr uint32_t kTopWeight = 127;                  // 7 bits
 constexpr double kWeightStep = 0.5458;                // 127 to 1 in eight equal ratios
 constexpr uint64_t kLeastShare = uint64_t{1} << 30U;  // a quarter
-constexpr size_t kVoteEvery = 4;  // of the drawn pixels, this one votes for positions
-constexpr int kTrimPasses = 2;    // mean shift steps from the mean towards the mode
+constexpr size_t kVoteEvery = 4;  // one in this many sampled pixels votes for positions
+constexpr int kTrimPasses = 2;    // mean shift steps from the mean to the mode
 constexpr int64_t kTrimRadius_mm = 150;
-constexpr int64_t kSpreadCap_mm = 300;  // a far outlier says "elsewhere", not how far
+constexpr int64_t kSpreadCap_mm = 300;  // outliers are clipped
 
-// What pixels of one vote row know of one target. Whole millimetres.
+// Statistics of one target over the pixels of a vote row. Whole millimetres.
 struct VoteSum {
   int64_t count = 0;
   int64_t x = 0, y = 0, z = 0;
-  int64_t all = 0;      // pixels, inside the trim radius or not
-  int64_t squares = 0;  // of the capped distances of all, to the mean before
+  int64_t all = 0;      // number of pixels, inside the trim radius or not
+  int64_t squares = 0;  // sum over all pixels of squared clipped distances to the previous mean
 };
 constexpr size_t kFields = sizeof(VoteSum) / sizeof(int64_t);
 
@@ -36,7 +36,7 @@ void Add(int64_t* to, int64_t value) {
   std::atomic_ref<int64_t>(*to).fetch_add(value, std::memory_order_relaxed);
 }
 
-// Leaf of each sample of an image, in one tree.
+// The leaf of each sample of an image in one tree.
 std::vector<int32_t> FindLeaves(const LinedTree& tree, const StoredImage& image, size_t step) {
   std::vector<int32_t> position;
   for (size_t i = 0; i < image.samples.size(); i += step) {
@@ -48,9 +48,9 @@ std::vector<int32_t> FindLeaves(const LinedTree& tree, const StoredImage& image,
   return leaf;
 }
 
-// Leaves are to know every context alike: of contexts with more images than the rarest, each image
-// counts with this probability, of 2^32. Rare contexts would else vanish in leaves' small numbers.
-// At least one in four counts: a context of a single image must not empty the leaves of all others.
+// Contexts are balanced: each image of contexts more frequent than the rarest counts with this
+// probability, of 2^32. Otherwise rare contexts would vanish in leaves with few pixels. At least a
+// quarter counts: a context with a single image must not empty the leaves of all others.
 std::vector<uint64_t> BalancedShares(const ImageParts& parts, const Reducer& reducer,
                                      size_t context_count) {
   std::vector<int64_t> images(context_count);
@@ -90,8 +90,8 @@ void CountCells(const Tree& tree, const ImageParts& parts, size_t class_count,
   });
 }
 
-// Weights are kept in steps of one ratio: finer ones say nothing that the few pixels behind them
-// know, and cost the file three bits each.
+// Quantises weights logarithmically: finer steps are below the noise of the few pixels they
+// represent, and cost three bits each.
 uint32_t RoundedWeight(uint32_t weight) {
   const double top = kTopWeight;
   const double steps = std::round(std::log(weight / top) / std::log(kWeightStep));
@@ -120,7 +120,7 @@ void PackEntries(const std::vector<uint32_t>& counts, size_t cells, Tree* tree) 
 }
 
 struct VotePass {
-  const std::vector<VoteSum>* before = nullptr;  // of the pass before; null in the first
+  const std::vector<VoteSum>* before = nullptr;  // results of the previous pass; null in the first
   std::vector<VoteSum>* sums = nullptr;
   size_t contexts = 1;
 };
@@ -180,7 +180,7 @@ Vote PackVote(const VoteSum& place, const VoteSum& last) {
   for (size_t i = 0; i < 3; ++i) {
     const long cm =
         std::lround(static_cast<double>(sum[i]) / static_cast<double>(place.count) / 10);
-    if (cm < -127 || cm > 127) return vote;  // too far to be worth a vote
+    if (cm < -127 || cm > 127) return vote;  // beyond the range of a vote
     vote.offset_cm[i] = static_cast<int8_t>(cm);
   }
   const double spread_cm =
@@ -208,9 +208,9 @@ void FillVotes(const ImageParts& parts, const Reducer& reducer, size_t contexts,
   }
 }
 
-// Offsets to half a pixel·metre (a quarter of a pixel at 2 m): a fifth of a node's bytes less. The
-// leaves are filled after that, so that they know it; the rare leaf that loses its pixels by it has
-// no entries and leaves the word to the other trees.
+// Rounds offsets to half a pixel·metre (a quarter of a pixel at 2 m): saves a fifth of a node's
+// bytes. Leaves are filled afterwards, so they are consistent with it; the rare leaf that loses all
+// its pixels has no entries and defers to the other trees.
 void RoundOffsets(Node* node) {
   constexpr int kUnits = 8;
   for (std::array<int16_t, 2>* offset : {&node->u, &node->v}) {

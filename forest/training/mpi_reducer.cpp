@@ -20,13 +20,13 @@ namespace {
 class MpiReducer final : public Reducer {
  public:
   MpiReducer(int* argc, char*** argv) {
-    int provided = 0;  // one thread talks; the others only count
+    int provided = 0;  // only one thread communicates
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
-  // An exception on one rank must not leave the others waiting: mpirun ends them when this rank
-  // exits without MPI_Finalize.
+  // If a rank exits by an exception, MPI_Finalize is not called, so that mpirun terminates the
+  // others, which would wait forever.
   ~MpiReducer() override {
     if (std::uncaught_exceptions() == exceptions_) MPI_Finalize();
   }

@@ -5,12 +5,12 @@
 
 namespace ossa::forest {
 
-/// The ranks of an MPI run: joins them on construction, leaves on destruction. Without mpirun, or
-/// when ossa was built without MPI, the lone rank 0 of 1; such a build throws InputError where
-/// mpirun started several.
+/// The ranks of an MPI run: initialises MPI in the constructor, finalises it in the destructor.
+/// Without mpirun, or if built without MPI, the only rank 0 of 1; such a build throws InputError if
+/// mpirun started several processes.
 std::unique_ptr<Reducer> MakeMpiReducer(int* argc, char*** argv);
 
-/// True when this process was started by mpirun and ossa was built with MPI.
+/// Whether this process was started by mpirun and ossa was built with MPI.
 bool UnderMpi();
 
 }  // namespace ossa::forest

@@ -4,7 +4,8 @@
 
 namespace ossa::forest {
 
-/// Adds integers over the ranks of a shared training run. This one is alone: rank 0 of 1.
+/// Sums integers over the ranks of a distributed training run. This base class is for a single
+/// rank.
 class Reducer {
  public:
   virtual ~Reducer() = default;

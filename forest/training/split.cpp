@@ -11,9 +11,9 @@ namespace {
 
 // Constants: chosen by hand, for speed.
 
-constexpr size_t kTile = 32;  // samples probed before their depths are written out by rows
+constexpr size_t kTile = 32;  // samples probed per transposed tile
 
-// Positions of all probes of one sample.
+// Pixel indices of all probes of one sample.
 OSSA_CPU_DISPATCH void ProbeIndices(const float* offset_u, const float* offset_v, size_t count,
                                     const std::array<int, 5>& place, float pixels_u, float pixels_v,
                                     int32_t* index) {
@@ -39,8 +39,9 @@ OSSA_CPU_DISPATCH void BinResponses(const int16_t* first, const int16_t* second,
   }
 }
 
-// Departure: small nodes look at fewer candidates and offsets: their few pixels cannot tell
-// thousands of splits apart. All of them from 2000 pixels on, a quarter at 500 and below.
+// Departure: small nodes evaluate fewer candidates and offsets, because their few pixels cannot
+// discriminate between thousands of splits. All of them from 2000 pixels on, a quarter at 500 and
+// below.
 int Effective(int most, int least, uint64_t node_pixels) {
   const double share = std::clamp(static_cast<double>(node_pixels) / 2000.0, 0.25, 1.0);
   return std::clamp(static_cast<int>(most * share), std::min(least, most), most);
@@ -55,7 +56,7 @@ CandidateSet DrawCandidates(const TrainOptions& options, uint64_t seed, uint64_t
                              ? options.thresholds
                              : std::min(options.thresholds, static_cast<int>(8 + node_pixels / 50));
   set.bins = thresholds + 1;
-  // Lengths evenly spread on a log scale: near probes see the shape, far ones the pose.
+  // Log-uniform lengths: near probes capture shape, far ones pose.
   constexpr double kShortest_pixel_m = 4.0;
   const double ratio = std::log(std::max(options.box_pixel_m / kShortest_pixel_m, 1.0));
   const int probes = Effective(options.offsets, 40, node_pixels);
@@ -90,7 +91,7 @@ int16_t ComputeThreshold(const Candidate& candidate, int bins, int bin) {
 void FillProbes(const CandidateSet& set, std::span<const SampleRef> samples, ProbeTable* table) {
   const size_t probes = set.offset_u.size();
   table->columns = samples.size();
-  // An odd number of cache lines a row keeps columns out of one cache set.
+  // An odd number of cache lines per row avoids cache set conflicts within columns.
   table->row_stride = ((samples.size() + 31) / 32 | 1U) * 32;
   table->depth_mm.resize((probes + 1) * table->row_stride);
   std::vector<int32_t> index(probes);
@@ -120,8 +121,8 @@ void FillProbes(const CandidateSet& set, std::span<const SampleRef> samples, Pro
 void CountResponses(const CandidateSet& set, const ProbeTable& table,
                     std::span<const LabelRun> runs, size_t first, size_t last,
                     uint32_t* histogram) {
-  // Four candidates at a time: their counters are far apart, so that one addition does not wait
-  // for the one before.
+  // Four candidates interleaved: their counters are far apart, so additions do not depend on one
+  // another.
   constexpr size_t kTogether = 4;
   constexpr size_t kColumns = 512;
   uint16_t bin[kTogether][kColumns];
@@ -164,8 +165,8 @@ float EntropyTable::Compute(uint32_t n) {
 
 namespace {
 
-// For one candidate: the bin after which to split. With n_c pixels of class c and N in all, the
-// weighted entropy of a side times its size is N log N - Σ n_c log n_c.
+// Finds the best threshold bin of one candidate. With n_c pixels of class c and N in all, the
+// entropy of a side times its size is N log N - Σ n_c log n_c.
 struct Sweep {
   std::array<uint32_t, 256> left{};
   std::array<uint32_t, 256> total{};
@@ -182,7 +183,7 @@ Split BestSplit(const uint32_t* histogram, size_t labels, size_t first, size_t l
     uint32_t all = 0;
     uint32_t left_all = 0;
     float whole = 0.0F;
-    float left_sum = 0.0F;  // Σ n_c log n_c of the left side
+    float left_sum = 0.0F;  // Σ n_c log n_c on the left side
     for (size_t l = 0; l < labels; ++l) {
       const uint32_t* row = histogram + (l * width + c) * kBinStride;
       uint32_t total = 0;

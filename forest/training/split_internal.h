@@ -9,10 +9,10 @@
 
 namespace ossa::forest {
 
-// Bins a candidate and label in a histogram; of cache lines
+// Bins per candidate and label in a histogram; of cache lines
 inline constexpr size_t kBinStride = 64;
 
-/// A feature to try: probe[first] - probe[second], binned as ((f + jitter) >> shift) + bins / 2.
+/// A candidate feature: probe[first] - probe[second], binned as ((f + jitter) >> shift) + bins / 2.
 struct Candidate {
   uint16_t first = 0;
   uint16_t second = 0;  // the pixel itself where it equals the number of offsets
@@ -20,7 +20,7 @@ struct Candidate {
   int16_t jitter_mm = 0;
 };
 
-/// The features tried in one node, all from its seed.
+/// The candidate features of one node, generated from its seed.
 struct CandidateSet {
   std::vector<float> offset_u, offset_v;  // offset units; whole numbers
   std::vector<Candidate> candidates;
@@ -28,17 +28,17 @@ struct CandidateSet {
 };
 CandidateSet DrawCandidates(const TrainOptions& options, uint64_t seed, uint64_t node_pixels);
 
-/// f <= this goes left when the split is after `bin`.
+/// Threshold for a split after `bin`: f <= threshold goes left.
 int16_t ComputeThreshold(const Candidate& candidate, int bins, int bin);
 
-/// A sample with the image it belongs to.
+/// A sample and its image.
 struct SampleRef {
   const ObjectImage* image = nullptr;
   uint16_t x = 0;
   uint16_t y = 0;
 };
 
-/// Depths seen by every probe (rows; the last row is the pixel itself) at every sample (columns).
+/// Depth at every probe (rows; the last row is the pixel itself) for every sample (columns).
 struct ProbeTable {
   size_t columns = 0;
   size_t row_stride = 0;
@@ -48,9 +48,9 @@ struct ProbeTable {
 };
 void FillProbes(const CandidateSet& set, std::span<const SampleRef> samples, ProbeTable* table);
 
-/// Columns of a probe table that carry one label.
+/// The columns of a probe table with one label.
 struct LabelRun {
-  uint32_t label = 0;  // row of the histogram: 0 .. labels present - 1
+  uint32_t label = 0;  // histogram row: 0 .. labels present - 1
   uint32_t begin = 0;
   uint32_t end = 0;
 };
@@ -63,10 +63,10 @@ void CountResponses(const CandidateSet& set, const ProbeTable& table,
 struct Split {
   size_t candidate = 0;
   int bin = -1;          // -1: none
-  double gain_bits = 0;  // information gain a sample (Shotton 2011, eqs. 5-6)
+  double gain_bits = 0;  // information gain per sample (Shotton 2011, eqs. 5-6)
 };
 
-/// n log2 n of whole numbers.
+/// Table of n log2 n.
 class EntropyTable {
  public:
   explicit EntropyTable(size_t size);
@@ -77,11 +77,11 @@ class EntropyTable {
   std::vector<float> table_;
 };
 
-/// The best split of candidates [first, last); ties go to the first.
+/// The best split of candidates [first, last); of ties the first.
 Split BestSplit(const uint32_t* histogram, size_t labels, size_t first, size_t last, int bins,
                 const EntropyTable& entropy);
 
-/// The node that makes a split of a candidate set.
+/// The node for a split of a candidate set.
 Node MakeNode(const CandidateSet& set, const Split& split);
 
 }  // namespace ossa::forest

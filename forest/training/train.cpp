@@ -21,7 +21,7 @@ void Require(bool holds, const std::string& name, double value, const std::strin
                               ", must be in " + range);
 }
 
-// The shortest text that stands for the number.
+// The shortest text that round-trips the number.
 template <typename Number>
 std::string ToText(Number number) {
   std::array<char, 32> text{};
@@ -29,7 +29,7 @@ std::string ToText(Number number) {
   return {text.data(), end};
 }
 
-// Everything that decides the bytes of the model: neither threads, memory nor ranks.
+// All settings that affect the bytes of the model: not threads, memory or ranks.
 std::vector<Setting> MakeSettings(const TrainOptions& o, const TrainingSource& source) {
   return {{"data", o.fingerprint},
           {"images", ToText(source.size())},
@@ -49,7 +49,7 @@ std::vector<Setting> MakeSettings(const TrainOptions& o, const TrainingSource& s
           {"seed", ToText(o.seed)}};
 }
 
-// One training run: what the levels have in common.
+// State of a training run over all levels.
 class Run {
  public:
   Run(const TrainingSource& source, const TrainingVocabulary& vocabulary,
@@ -80,7 +80,7 @@ class Run {
     return trees;
   }
 
-  // Leaves are filled with contexts balanced.
+  // Balanced, as leaves are filled with balanced contexts.
   std::vector<float> ContextPrior() const {
     std::vector<int64_t> counts;
     for (size_t k = 0; k < vocabulary_.context_names.size(); ++k) {
@@ -144,7 +144,7 @@ class Run {
     WriteCheckpoint(options_.checkpoint, checkpoint_);
   }
 
-  // Levels below the tenth look at all pixels and cost about the same; those above are sampled.
+  // Levels below the tenth use all pixels and have about equal cost; those above use a sample.
   void Report(int level, const LevelReport& report, double level_s) const {
     if (!options_.progress || reducer_.rank() != 0) return;
     TrainProgress progress;

@@ -15,7 +15,7 @@ namespace ossa::forest {
 
 inline constexpr float kHitRadius_m = 0.10F;  // the measure of Shotton 2011
 
-/// What an image's pixels say, and the truth.
+/// The evidence of an image, and its ground truth.
 struct ValidationImage {
   depth::Camera camera;
   Evidence evidence;
@@ -27,19 +27,19 @@ struct ValidationImage {
 Classification ClassifyImage(const ForestModel& model, const TrainingImage& image);
 ValidationImage GatherImage(const ForestModel& model, const TrainingImage& image);
 
-/// What the stages before the refinement make of an image.
+/// The results of the stages before the refinement.
 struct FirstStage {
   TargetModes modes;
   PoseMarginals marginals;
 };
 FirstStage RunFirstStage(const ForestModel& model, const ValidationImage& image);
 
-/// A mode or a place with its features and what is true of it.
+/// A mode or position with its features and ground truth.
 template <size_t N>
 struct Judged {
   std::array<float, N> feature{};
-  bool is_near = false;  // to the target's true position
-  bool visible = false;  // the target
+  bool is_near = false;  // near the target's true position
+  bool visible = false;  // whether the target is visible
 };
 using JudgedMode = Judged<ModeConfidence::kFeatures>;
 
@@ -47,7 +47,7 @@ using JudgedMode = Judged<ModeConfidence::kFeatures>;
 template <size_t N>
 Logistic<N> FitLogistic(const std::vector<Judged<N>>& judged, bool Judged<N>::*outcome) {
   constexpr auto kSize = static_cast<Eigen::Index>(N) + 1;  // no unit; by definition
-  // Half an example's worth: matters only where one outcome rules; by hand
+  // Equivalent to half an example: matters only if one outcome dominates; by hand
   constexpr double kRidge = 0.5;
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Square = Eigen::Matrix<double, kSize, kSize>;
@@ -64,7 +64,7 @@ Logistic<N> FitLogistic(const std::vector<Judged<N>>& judged, bool Judged<N>::*o
       hessian += std::max(p * (1.0 - p), 1e-6) * x * x.transpose();
     }
     Vector move = hessian.ldlt().solve(gradient);
-    if (move.norm() > 4.0) move *= 4.0 / move.norm();  // Newton overshoots far from the optimum
+    if (move.norm() > 4.0) move *= 4.0 / move.norm();  // limits Newton's steps far from the optimum
     w += move;
     if (move.norm() < 1e-6) break;
   }
@@ -76,18 +76,19 @@ Logistic<N> FitLogistic(const std::vector<Judged<N>>& judged, bool Judged<N>::*o
   return fitted;
 }
 
-/// A place as it is proposed, and what is true of it.
+/// A proposed position with its ground truth.
 struct RatedPlace {
   double confidence = 0.0;
   bool is_near = false;
   bool visible = false;
-  bool seen = false;  // said to be
+  bool seen = false;  // according to the proposal
 };
 
-/// Confidences from which on a target is tracked (nine of ten are right) and inferred (half are).
+/// Sets the confidence thresholds above which a target is tracked (precision 0.9) and inferred
+/// (0.5).
 void SetThresholds(const std::vector<RatedPlace>& rated, ProposalTarget* target);
 
-/// Fits what the model says where modes and other targets meet. Precondition: it has pose priors.
+/// Learns the parameters of pose inference. Precondition: it has pose priors.
 ForestModel LearnPoseInference(const ForestModel& model,
                                const std::vector<ValidationImage>& images);
 

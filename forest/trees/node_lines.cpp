@@ -1,6 +1,6 @@
-// Below the uppermost levels each step of a walk meets a node that is in no near cache. Of nodes of
-// 8 bytes three levels fit a line, so that two steps of three cost nothing. Levels are counted from
-// below: the lowest, where most nodes are, fill their lines.
+// Below the top levels, each step of a walk is a cache miss. Three levels of 8-byte nodes fit into
+// one cache line, which saves two of three misses. Levels are grouped from the bottom, so that the
+// lowest levels, with most nodes, fill their lines.
 #include "forest/trees/node_lines_internal.h"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace {
 
 // Constants: of cache lines.
 
-// Inner nodes of each level.
+// Number of inner nodes per level.
 std::vector<size_t> InnerNodes(const std::vector<Node>& nodes) {
   std::vector<size_t> count;
   std::vector<uint32_t> level(nodes.size(), 0);
-  for (size_t i = 0; i < nodes.size(); ++i) {  // parents stand before their children
+  for (size_t i = 0; i < nodes.size(); ++i) {  // parents come before their children
     if (nodes[i].is_leaf()) continue;
     const auto left = static_cast<size_t>(nodes[i].left);
     level[left] = level[left + 1] = level[i] + 1;
@@ -26,8 +26,8 @@ std::vector<size_t> InnerNodes(const std::vector<Node>& nodes) {
   return count;
 }
 
-// The smallest step of which all offsets are multiples and none too many; else the smallest in
-// which none is too many.
+// The smallest step that divides all offsets such that the quotients fit; else the smallest for
+// which they fit after rounding.
 int OffsetStep(const std::vector<Node>& nodes) {
   int largest = 0;
   int common = 0;
@@ -78,17 +78,17 @@ class Placer {
  private:
   static constexpr size_t kNodes = 7;
 
-  // The line with this node of the tree at this place in it.
+  // Places the line whose root is this node of the tree.
   void PlaceLine(int32_t root, size_t at) {
-    std::array<int32_t, kNodes + kExitsOfLine> places;  // of nodes, and ways out
+    std::array<int32_t, kNodes + kExitsOfLine> places;  // nodes, and exits
     places.fill(kNowhere);
-    int32_t* node = places.data();  // of the tree, in each
+    int32_t* node = places.data();  // tree node at each position
     node[at] = root;
     NodeLine line;
     for (size_t i = at; i < kNodes; ++i) {
       if (node[i] == kNowhere) continue;
       const Node& here = nodes_[static_cast<size_t>(node[i])];
-      if (here.is_leaf()) {  // goes on to the left
+      if (here.is_leaf()) {  // padding nodes go left
         node[2 * i + 1] = node[i];
         continue;
       }
@@ -116,7 +116,7 @@ class Placer {
 
   static constexpr int32_t kNowhere = -1;
   const Node* nodes_;
-  std::vector<int32_t> waiting_;  // roots of lines behind the first; those before the one at hand
+  std::vector<int32_t> waiting_;  // roots of further lines; those before the current one
                                   // are placed
 };
 

@@ -1,7 +1,6 @@
-// Trees as columns. Numbers of one kind side by side compress better than nodes one after another,
-// their bytes of one significance side by side better still, and what follows from the order of
-// things (children, leaf numbers) is not written at all: a tree takes two thirds of the bytes that
-// version 2 took.
+// Trees are stored in columns. Numbers of one kind compress better together than node by node, even
+// better split into byte planes, and what follows from the order (children, leaf numbers) is not
+// stored: a tree takes two thirds of the bytes of version 2.
 #include "forest/trees/tree_codec_internal.h"
 
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace {
 
 // Constants: of the format.
 
-constexpr unsigned kCodeBits = 9;  // of an entry; the weight stands above
+constexpr unsigned kCodeBits = 9;  // of an entry; the weight is in the bits above
 constexpr unsigned kCodes = 1U << kCodeBits;
 constexpr size_t kNodeColumns = 5;
 
@@ -33,7 +32,7 @@ NodeColumns MakeColumns(const std::vector<Node>& nodes) {
   return columns;
 }
 
-// Numbers of two bytes that stay where they lie in a payload, as PutPlanes put them.
+// A view of 16-bit numbers stored as byte planes by PutPlanes.
 template <typename T>
 class Planes {
  public:
@@ -50,7 +49,8 @@ class Planes {
   std::span<const uint8_t> first_, second_;
 };
 
-// Breadth-first: the n-th inner node has children 1 + 2n and 2 + 2n, the n-th leaf number n.
+// Visits nodes breadth-first: the n-th inner node has children 1 + 2n and 2 + 2n, the n-th leaf
+// number n.
 template <typename Column>
 std::vector<Node> DecodeNodes(std::span<const uint8_t> is_leaf,
                               const std::vector<Column>& parameters, const PayloadReader& reader) {
@@ -80,7 +80,7 @@ std::vector<Node> DecodeNodes(std::span<const uint8_t> is_leaf,
   return nodes;
 }
 
-// Entries of a leaf in the order of their codes, each code as its distance to the one before.
+// Entries of a leaf sorted by code, each code as the difference from the previous one.
 void PutLeaves(PayloadWriter* writer, const Tree& tree) {
   std::vector<uint16_t> counts;
   std::vector<uint16_t> steps;
@@ -164,7 +164,7 @@ void SkipTree(PayloadReader* reader) {
 
 Tree GetTreeOfVersion2(PayloadReader* reader) {
   const std::span<const uint8_t> is_leaf = reader->GetBytes("nodes");
-  reader->GetVector<int32_t>("leaf numbers");  // breadth-first, as we number them
+  reader->GetVector<int32_t>("leaf numbers");  // implied by breadth-first order
   std::vector<std::vector<int16_t>> parameters(kNodeColumns);
   for (auto& column : parameters) column = reader->GetVector<int16_t>("node parameters");
   Tree tree;

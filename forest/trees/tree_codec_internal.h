@@ -9,15 +9,15 @@
 
 namespace ossa::forest {
 
-/// One tree as model files since version 3 hold it: columns of bytes, made to compress well.
+/// One tree in the format of model files since version 3: compressible byte columns.
 void PutTree(PayloadWriter* writer, const Tree& tree);
 Tree GetTree(PayloadReader* reader);
-/// Goes past it. What is wrong inside it only GetTree tells.
+/// Skips a tree without validating it; GetTree validates.
 void SkipTree(PayloadReader* reader);
-/// As files of versions 1 and 2 hold it.
+/// The format of versions 1 and 2.
 Tree GetTreeOfVersion2(PayloadReader* reader);
 
-/// All first bytes, then all second bytes, and so on: they compress better side by side.
+/// Byte planes: all first bytes, then all second bytes, and so on, which compress better.
 template <typename T>
 void PutPlanes(PayloadWriter* writer, const std::vector<T>& values) {
   std::vector<uint8_t> plane(values.size());

@@ -37,7 +37,7 @@ ObjectImage CutOut(const depth::DepthView& depth, const depth::Camera& camera,
 
 namespace {
 
-// The way out of a line: whether it leads to another line, and the number of that line or leaf.
+// An exit of a line: whether it leads to another line, and the index of that line or leaf.
 struct WayOut {
   bool goes_on = false;
   int32_t number = 0;

@@ -1,7 +1,7 @@
-// Eight pixels to a vector, many vectors under way at once. A step down a tree is a long chain of
-// waits: node, probes, comparison. It is cut into two halves, and each half is done for all vectors
-// before the next: the processor looks some 300 instructions ahead, and finds there the loads of
-// other pixels instead of more of the same chain. That alone is worth half the time.
+// Eight pixels per vector, many vectors interleaved. A step down a tree is a long dependency chain:
+// node, probes, comparison. It is split into two halves, each of which is executed for all vectors
+// before the next. The processor looks some 300 instructions ahead, and so finds independent loads
+// of other pixels. That alone halves the time.
 #include "forest/trees/depth_feature_internal.h"
 
 #if defined(__x86_64__)
@@ -19,21 +19,21 @@ namespace {
 // Constants: of AVX2 registers and cache lines.
 
 constexpr size_t kLanes = 8;
-constexpr size_t kGroups = 16;  // 128 pixels: a tile of ChooseSparse
+constexpr size_t kGroups = 16;  // 128 pixels: the tile size of ChooseSparse
 constexpr int kCachedLines = 3;
 
-// Everything about eight pixels under way. Pairs of 16 bits are (u, v) or (x, y), as in Node: no
-// image is larger than 2^15 a side.
+// State of eight pixels. Pairs of 16 bits are (u, v) or (x, y), as in Node: images are at most 2^15
+// per side.
 struct Lanes {
   __m256i place;  // box coordinates + 1 (ring included), in pairs
   __m256i scale;  // FixedScale, in pairs
-  __m256i node;   // byte in the tree's lines
+  __m256i node;   // byte offset in the tree's lines
   __m256i leaf;   // negative: still walking
 };
 
-// What the first half of a step finds out for the second.
+// Results of the first half of a step.
 struct Fetched {
-  __m256i probe_u, probe_v;  // places in ObjectImage::depth_mm
+  __m256i probe_u, probe_v;  // indices into ObjectImage::depth_mm
   __m256i threshold_mm;
 };
 
@@ -55,14 +55,14 @@ OSSA_AVX2 Box MakeBox(const ObjectImage& image) {
           Pairs(1, image.stride())};
 }
 
-// ScaleOffset, clamping and the place's number, for x and y together.
+// ScaleOffset, clamping and the index, for x and y together.
 OSSA_AVX2 __m256i PlaceOf(const Box& box, const Lanes& lanes, __m256i offset) {
   const __m256i at = _mm256_adds_epi16(lanes.place, _mm256_mulhrs_epi16(offset, lanes.scale));
   const __m256i inside = _mm256_max_epi16(_mm256_setzero_si256(), _mm256_min_epi16(box.most, at));
   return _mm256_madd_epi16(inside, box.strides);
 }
 
-// Eight depths by single loads: quicker here than a gather, which also reads 32 bits for each 16.
+// Eight scalar loads: faster here than a gather, which also reads 32 bits for each 16.
 OSSA_AVX2 __m128i ReadDepths(const uint16_t* depth_mm, __m256i place) {
   alignas(32) uint32_t at[kLanes];
   _mm256_store_si256(reinterpret_cast<__m256i*>(at), place);
@@ -78,14 +78,14 @@ OSSA_AVX2 __m128i ReadDepths(const uint16_t* depth_mm, __m256i place) {
 
 OSSA_AVX2 __m256i Splat(int value) { return _mm256_set1_epi32(value); }
 
-// Two times 64 bits.
+// Loads two times 64 bits.
 OSSA_AVX2 __m128i LoadTwo(const char* begin, int32_t byte_a, int32_t byte_b) {
   const __m128i a = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(begin + byte_a));
   const __m128i b = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(begin + byte_b));
   return _mm_unpacklo_epi64(a, b);
 }
 
-// Of eight times 64 bits the lower and the upper halves.
+// The lower and upper halves of eight 64-bit nodes.
 struct Halves {
   __m256i low, high;
 };
@@ -106,7 +106,7 @@ OSSA_AVX2 __m256i UnpackOffsets(__m256i words, __m256i offset_step) {
   return _mm256_mullo_epi16(_mm256_srai_epi16(words, 4), offset_step);
 }
 
-// Puts the four pieces of each lane's threshold together.
+// Assembles each lane's threshold from its four parts.
 OSSA_AVX2 __m256i UnpackThresholds(const Halves& nodes) {
   const __m256i pieces = Pairs(15, 15);
   const __m256i u = _mm256_and_si256(nodes.low, pieces);
@@ -124,8 +124,8 @@ OSSA_AVX2 Fetched FetchNodes(const Lines& lines, const Box& box, const Lanes& la
           UnpackThresholds(nodes)};
 }
 
-// The second half: -1 in the lanes that go right. Depths are at most ForestData::background_mm <
-// 2^15, so that 16 bits hold a response.
+// The second half: -1 in lanes that go right. Depths are at most ForestData::background_mm < 2^15,
+// so responses fit into 16 bits.
 OSSA_AVX2 __m256i GoesRight(const Box& box, const Fetched& fetched) {
   const __m128i response_mm = _mm_sub_epi16(ReadDepths(box.depth_mm, fetched.probe_u),
                                             ReadDepths(box.depth_mm, fetched.probe_v));
@@ -139,7 +139,7 @@ OSSA_AVX2 void StepWithin(__m256i is_right, Lanes* lanes) {
   lanes->node = _mm256_add_epi32(_mm256_add_epi32(lanes->node, in_line), child);
 }
 
-// Bits that are set in each byte.
+// Population count of each byte.
 OSSA_AVX2 __m256i CountBits(__m256i bytes) {
   const __m256i of_nibble = _mm256_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4, 0, 1,
                                              1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
@@ -149,8 +149,9 @@ OSSA_AVX2 __m256i CountBits(__m256i bytes) {
   return _mm256_add_epi8(_mm256_shuffle_epi8(of_nibble, low), _mm256_shuffle_epi8(of_nibble, high));
 }
 
-// Out of a line to the next one, or to a leaf; who is in a leaf walks on in the first line, so that
-// all lanes do the same. Ways before the own one that lead the same way count lines and leaves.
+// Leaves a line for the next one, or for a leaf; lanes in a leaf keep walking in the first line, so
+// that all lanes execute the same code. The number of earlier exits of the same kind selects the
+// line or leaf.
 OSSA_AVX2 void StepOut(const Lines& lines, __m256i is_right, Lanes* lanes) {
   constexpr int kLowestNodes = 3 * sizeof(PackedNode);
   static_assert(offsetof(NodeLine, lines) % 8 == 0);
@@ -174,7 +175,7 @@ OSSA_AVX2 void StepOut(const Lines& lines, __m256i is_right, Lanes* lanes) {
   lanes->leaf = _mm256_blendv_epi8(lanes->leaf, leaf, arrives);
 }
 
-// A whole line is on its way as soon as it is known which.
+// Prefetches the whole line as soon as it is known.
 OSSA_AVX2 void FetchLines(const Lines& lines, __m256i bytes) {
   alignas(32) int32_t byte[kLanes];
   _mm256_store_si256(reinterpret_cast<__m256i*>(byte), bytes);
@@ -210,7 +211,7 @@ OSSA_AVX2 void StepAllWithin(const Lines& lines, const Box& box, size_t groups, 
   for (size_t g = 0; g < groups; ++g) StepWithin(GoesRight(box, fetched[g]), &lanes[g]);
 }
 
-// One level down for all groups, out of their lines; says whether any lane still walks.
+// One level down for all groups, into the next line; returns whether any lane is still walking.
 template <bool kFetchLines>
 OSSA_AVX2 bool StepAllOut(const Lines& lines, const Box& box, size_t groups, Lanes* lanes) {
   Fetched fetched[kGroups];
@@ -224,7 +225,7 @@ OSSA_AVX2 bool StepAllOut(const Lines& lines, const Box& box, size_t groups, Lan
   return _mm256_movemask_ps(_mm256_castsi256_ps(walking)) != 0;
 }
 
-// All groups to their leaves.
+// Walks all groups to their leaves.
 OSSA_AVX2 void WalkAll(const WalkInput& input, const Box& box, size_t groups, Lanes* lanes) {
   const LinedTree& tree = *input.tree;
   const Lines lines{reinterpret_cast<const char*>(tree.lines.data()),
@@ -233,7 +234,7 @@ OSSA_AVX2 void WalkAll(const WalkInput& input, const Box& box, size_t groups, La
   bool walking = true;
   for (int line = 0; walking; ++line, steps_within = 2) {
     for (int step = 0; step < steps_within; ++step) StepAllWithin(lines, box, groups, lanes);
-    // The uppermost lines are always in the cache.
+    // The top lines are always cached.
     walking = line < kCachedLines ? StepAllOut<false>(lines, box, groups, lanes)
                                   : StepAllOut<true>(lines, box, groups, lanes);
   }

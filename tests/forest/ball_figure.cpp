@@ -32,7 +32,7 @@ std::vector<Ball> FigureAt(std::mt19937_64& random, bool back) {
   return figure;
 }
 
-// Distance along z of the first surface on the ray (x, y, 1), or 0.
+// Depth of the first surface on the ray (x, y, 1), or 0.
 double Hit(const Ball& ball, const Eigen::Vector3d& ray) {
   const double along = ray.dot(ball.centre_m) / ray.squaredNorm();
   const double square = ball.radius_m * ball.radius_m - (ball.centre_m - along * ray).squaredNorm();

@@ -8,9 +8,9 @@
 
 namespace ossa::forest::test {
 
-/// A figure of five balls that turns about the vertical: 1 belly, 2 head, 3 left hand, 4 right
-/// hand, and 5 a nose that alone tells front from back. Contexts: 0 faces the camera, 1 shows its
-/// back. Targets: the centres of the head and of the two hands.
+/// A figure of five balls, rotated about the vertical: 1 belly, 2 head, 3 left hand, 4 right hand,
+/// and 5 a nose, the only cue to front and back. Contexts: 0 faces the camera, 1 shows its back.
+/// Targets: the centres of the head and of the two hands.
 class BallFigures final : public TrainingSource {
  public:
   BallFigures(size_t count, uint64_t seed, int width = 128)
@@ -59,7 +59,7 @@ inline depth::DepthView MakeView(const TrainingImage& image) {
   return {image.depth_mm.data(), image.camera.width, image.camera.height, image.camera.width};
 }
 
-/// What a model file of this model holds, byte by byte.
+/// The bytes of the model's file.
 std::vector<char> ToBytes(const ForestModel& model);
 
 }  // namespace ossa::forest::test

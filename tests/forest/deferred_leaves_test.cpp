@@ -35,7 +35,7 @@ std::vector<int32_t> Leaves(int32_t step) {
   return leaves;
 }
 
-// The rows of a leaf, wherever they stand.
+// The rows of a leaf, at any index.
 std::vector<int> RowsAt(const LeafView& tables, size_t place, size_t contexts) {
   std::vector<int> rows;
   for (size_t k = 0; k < contexts; ++k) {
@@ -101,8 +101,7 @@ TEST(DeferredLeaves, AreMadeAtALowPriority) {
   EXPECT_EQ(priority.get_future().get(), std::min(kLeast, getpriority(PRIO_PROCESS, 0) + 10));
 }
 
-// Of so many leaves that their rows take a tenth of a second; of the tree's leaves, again and
-// again.
+// So many leaves that building their rows takes a tenth of a second: the tree's leaves, repeated.
 LeafSource LargeSource(size_t leaves) {
   const LeafSource small = SourceOf(OneTree());
   LeafSource source;
@@ -118,7 +117,7 @@ LeafSource LargeSource(size_t leaves) {
   return source;
 }
 
-// The other thread is somewhere in the middle: what it holds nobody gives back in the child.
+// The other thread is interrupted by the fork: locks that it holds are never released in the child.
 TEST(DeferredLeaves, AreFoundInAProcessForkedWhileAThreadGathers) {
   constexpr unsigned kPatience_s = 20;
   const auto deferred = Defer(LargeSource(400'000));

@@ -22,7 +22,7 @@ namespace {
 using test::BallFigures;
 using test::BallModel;
 
-// The message of the InputError that `act` throws: one line, or the test fails.
+// The message of the InputError thrown by `act`; it must be one line.
 template <typename Act>
 std::string Refusal(const Act& act) {
   try {

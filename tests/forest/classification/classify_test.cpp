@@ -91,7 +91,8 @@ TEST(ForRows, TheLastRowOfTheLargestBoxOverflowsNothing) {
   });
 }
 
-// A figure cut out, with the whole box as positions: its border and pixels off the object as well.
+// A cropped figure, with all pixels of the box as positions, including its border and pixels
+// outside the object.
 ObjectImage CutFigure(std::vector<int32_t>* position) {
   const TrainingImage image = BallFigures(1, 8).Read(0);
   const ObjectImage cut = CutOut(test::MakeView(image), image.camera, test::ObjectPixels(image),
@@ -102,7 +103,7 @@ ObjectImage CutFigure(std::vector<int32_t>* position) {
   return cut;
 }
 
-// The vector path takes 128 pixels at a time, eight to a vector: any rest of them must do.
+// The vector path processes 128 pixels at a time, eight per vector: all remainders must work.
 TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
   std::vector<int32_t> position;
   const ObjectImage cut = CutFigure(&position);
@@ -117,7 +118,7 @@ TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
   }
 }
 
-// A tree of any shape: leaves on all levels, one in `leaf_in` nodes.
+// A random tree: leaves on all levels, one in `leaf_in` nodes.
 std::vector<Node> RandomTree(unsigned seed, int levels, int leaf_in, int offset_step) {
   std::mt19937 random(seed);
   const auto draw = [&](int most) {
@@ -144,7 +145,7 @@ std::vector<Node> RandomTree(unsigned seed, int levels, int leaf_in, int offset_
   return nodes;
 }
 
-// The leaf of a walk from node to node.
+// The leaf reached by a scalar walk.
 int32_t LeafOf(const std::vector<Node>& nodes, const ObjectImage& image, int x, int y) {
   const auto d_mm = static_cast<float>(image.depth_mm[image.At(x, y)]);
   const auto read = [&](const std::array<int16_t, 2>& offset) {
@@ -280,8 +281,8 @@ TEST(ChooseSparse, EveryPixelWalksAtStepOne) {
   }
 }
 
-// Two samples of a row, three pixels apart, the left one of class 1 and the right one of class 2:
-// the border lies in the middle between them.
+// Two samples in a row, three pixels apart, the left one of class 1 and the right one of class 2:
+// the border is halfway between them.
 TEST(LabelPixels, TheBorderOfTwoLabelsLiesBetweenTheirSamples) {
   ObjectImage image;
   image.width = 6;

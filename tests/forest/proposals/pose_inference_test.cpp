@@ -13,8 +13,8 @@ namespace {
 using test::BallFigures;
 using test::BallModel;
 
-// The ball model whose three targets stand a metre above each other, give or take 2 cm; what mean
-// shift saw of a mode does not matter: trust is `trust` for all.
+// The ball model with three targets a metre above each other, with a standard deviation of 2 cm;
+// `trust` is the prior trust in every mode, whatever its features.
 ForestModel Column(double trust) {
   ForestData data = BallModel().data();
   for (ProposalTarget& target : data.targets) {
@@ -121,8 +121,8 @@ PosePrior SomePosePrior() {
   return prior;
 }
 
-// All coordinates as one normal distribution; target `t` given the sites of all others, by the
-// rule for conditional distributions.
+// The joint normal distribution of all coordinates, conditioned on the sites of all targets but
+// `t`.
 Prediction PredictByConditioning(const PosePrior& prior, const std::vector<Site>& sites, size_t t) {
   Eigen::MatrixXd loading(15, 5);
   for (int i = 0; i < 15; ++i) {

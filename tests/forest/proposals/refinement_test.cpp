@@ -31,7 +31,7 @@ JointFeatures ComputeFigureFeatures(const TrainingImage& image) {
                               first.modes, first.marginals);
 }
 
-// Layers that say the same of every object: an offset of each target, and a logit.
+// Layers with constant output: an offset of each target, and a logit.
 Perceptron Constant(const Eigen::Vector3f& steps, float logit) {
   const auto inputs = static_cast<Eigen::Index>(JointFeatureCount(3, 6, 2));
   Perceptron refinement;

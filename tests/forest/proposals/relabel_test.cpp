@@ -111,7 +111,7 @@ TEST(LearnRelabelling, RefusesImagesThatShowNothing) {
   EXPECT_THROW(LearnRelabelling(Arranged(), BallFigures(0, 1), 1, 1), InputError);
 }
 
-// It wrote beyond the classes.
+// Such labels would index beyond the classes.
 TEST(LearnRelabelling, RefusesLabelsThatTheModelHasNot) {
   const test::ChangedFigures others([](TrainingImage& image) {
     for (uint8_t& label : image.label) label = label == 1 ? 200 : label;

@@ -106,7 +106,7 @@ TEST(LearnProposals, MakesConfidencesThatSortRightFromWrong) {
   EXPECT_LT(wrong_sum, 0.5 * std::max(wrong, 1));
 }
 
-// It read places and contexts that are not there.
+// It would read targets and contexts that do not exist.
 TEST(LearnProposals, RefusesTruthOfAnotherVocabulary) {
   const test::ChangedFigures fewer_targets([](TrainingImage& i) { i.target_m.pop_back(); });
   const test::ChangedFigures other_contexts([](TrainingImage& i) { i.context = 2; });
@@ -115,7 +115,7 @@ TEST(LearnProposals, RefusesTruthOfAnotherVocabulary) {
   }
 }
 
-// Nothing was learned, and nobody was told.
+// Nothing could be learned from them.
 TEST(LearnProposals, RefusesImagesThatShowNothing) {
   const test::ChangedFigures nobody([](TrainingImage& i) { i.label.assign(i.label.size(), 0); });
   EXPECT_THROW(LearnProposals(BallModel(), nobody, 20, 1), InputError);
@@ -177,7 +177,7 @@ TEST(Train, StopsWhileLeavesAreFilledAndResumesToTheSameBytes) {
   EXPECT_EQ(unbroken, ToBytes(Train(figures, BallVocabulary(), options)));
 }
 
-// It read all images four times more before it asked.
+// It must not read all images several times more before it stops.
 TEST(Train, StopsWhileImagesThatStreamAreRead) {
   class CountedFigures final : public TrainingSource {
    public:
@@ -232,7 +232,7 @@ TEST(Train, RefusesTheCheckpointOfAnotherRun) {
       << complaint(other);
 }
 
-// One class only: there is nothing to tell apart.
+// One class only: there is nothing to distinguish.
 class OnlyBellies final : public TrainingSource {
  public:
   size_t size() const override { return 4; }
