@@ -25,22 +25,22 @@ recon::BoneLengths Checked(recon::BoneLengths lengths) {
   return lengths;
 }
 
-/// A trust of 0 still follows, slowly: its place was filled in by someone who knew better.
+/// A joint of trust 0 still follows, slowly: its position was completed by an earlier stage.
 constexpr double kLeastStiffness = 0.3;  // share
 // Constants: chosen by hand, where nothing else is said; thresholds of Lead by a sweep on UI-PRMD
 // and noisy motion capture.
 
-/// What the user insists on pulls the joints before it along (sec. 6.1), not they it.
+/// A user constraint pulls the other joints of its chain (sec. 6.1), not vice versa.
 constexpr double kConstrainedWeight = 50.0;  // times the weight of other joints
-constexpr double kFarthest_m = 1000.0;       // beyond is no place in a room
-constexpr double kLargestSpeed_m_s = 15.0;   // of a target; a fast punch has 10
+constexpr double kFarthest_m = 1000.0;       // targets beyond are invalid
+constexpr double kLargestSpeed_m_s = 15.0;   // largest speed of a target; a fast punch has 10
 
 double SmoothStep(double x, double from, double to) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// Nobody stands in the floor: what the sensor puts there is wanted on it. True if anything moved.
+/// Raises target joints below the floor onto it. Returns whether anything moved.
 bool LiftOntoFloor(const std::optional<Vector4d>& floor, double height_m, Posture& posture) {
   bool lifted = false;
   if (!floor) return false;
@@ -83,7 +83,7 @@ void Actor::Place(const Posture& posture, const std::optional<Vector4d>& floor) 
   even.fill(1.0);
   aim = FitBoneLengths(posture, lengths, even);
   if (floor) {
-    // As a whole, until nothing is in the floor.
+    // Raises the whole posture until nothing is below the floor.
     double below = 0.0;
     for (const auto& p : aim.position_m) {
       below = std::max(below, SoleHeight() - HeightAbove(*floor, p));
@@ -120,7 +120,7 @@ recon::JointOrientations Actor::OrientAim() const {
   return recon::AlignToBones(*wanted_orientation, aim);
 }
 
-/// Where to go this frame: what was asked for, what the user insists on, what the floor allows.
+/// This frame's target: the requested posture, user constraints, and the floor.
 Posture Actor::Goal(recon::JointArray<double>& trust) const {
   Posture goal = wanted;
   if (!lean_rad.isZero()) LeanBy(lean_rad, goal);
@@ -138,9 +138,9 @@ Posture Actor::Goal(recon::JointArray<double>& trust) const {
 
 void Actor::WatchFor(const ObjectState& thing, double radius_m, const Vector3d& gravity_m_s2) {
   constexpr double kRoom_m = 0.25;  // a head's radius, and as much again
-  constexpr double kHold_s = 0.3;   // until it is past
+  constexpr double kHold_s = 0.3;   // until the object has passed
   for (const recon::Joint joint : {recon::Joint::kHead, recon::Joint::kShoulderCenter}) {
-    // Where they would stand: who leans already is out of the way.
+    // The target without lean: an already leaning head is out of the way.
     const auto way = EscapeFrom(thing, wanted[joint], kRoom_m + radius_m, gravity_m_s2);
     if (!way) continue;
     if (lean_left_s <= 0.0) escape = *way;
@@ -174,7 +174,7 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
         controlled ? kLeastStiffness + (1.0 - kLeastStiffness) * std::min(trust[i], 1.0) : 0.0;
   }
   for (size_t i = 1; i < kJointCount; ++i) {
-    // A bone turns by what its ends' velocities differ across it.
+    // A bone's angular velocity from the difference of its end velocities.
     const auto parent = recon::ParentOf(i);
     const Vector3d bone = aim.position_m[i] - aim.position_m[parent];
     control.angular_velocity_rad_s[i] =
@@ -182,11 +182,11 @@ void Actor::Prepare(OdeWorld& ode, const std::optional<Vector4d>& floor, double 
   }
 }
 
-/// Who leans does it at once, but not in one frame.
+/// Leaning is fast, but takes more than a frame.
 void Actor::SetLean(const std::optional<Vector4d>& floor, double dt_s) {
-  constexpr double kLean_rad = 0.65;     // puts a head 0.4 m aside
+  constexpr double kLean_rad = 0.65;     // moves the head 0.4 m aside
   constexpr double kWay_s = 0.07;        // time constant
-  constexpr double kUpright_rad = 1e-3;  // what nobody sees
+  constexpr double kUpright_rad = 1e-3;  // below visibility
   const Vector3d up = floor ? Vector3d(floor->head<3>()) : Vector3d::UnitY();
   const Vector3d wanted_rad =
       lean_left_s > 0.0 ? Vector3d(kLean_rad * up.cross(escape)) : Vector3d::Zero();
@@ -203,7 +203,7 @@ void Actor::SetLead(size_t joint, const std::optional<Vector4d>& floor, double s
   if (speed > kLargestSpeed_m_s) velocity *= kLargestSpeed_m_s / speed;
   velocity = Lead(joint, velocity, dt_s);
   if (floor) {
-    // A foot that comes down stops at the floor, whatever its speed was.
+    // A descending foot stops at the floor, whatever its speed.
     const double below = sole_m - HeightAbove(*floor, p + dt_s * velocity);
     const double down = -floor->head<3>().dot(velocity);
     if (below > 0.0 && down > 0.0) velocity += std::min(down, below / dt_s) * floor->head<3>();
@@ -211,11 +211,11 @@ void Actor::SetLead(size_t joint, const std::optional<Vector4d>& floor, double s
   aim_velocity_m_s[joint] = velocity;
 }
 
-/// The share of a joint's velocity that the controller is told. A spring alone lags 2 / w behind
-/// steady motion. Noise moves a joint to and fro, motion moves it on: the ratio of the mean
-/// velocity to the mean speed tells them apart, without a noise level to be set. Only the mean
-/// velocity is told. Departure from eq. 1, which differentiates the target; that hands the sensor's
-/// jitter on. The thresholds are of a sweep on UI-PRMD and noisy motion capture.
+/// The part of a joint's velocity that the controller gets as feed-forward. A spring alone lags 2 /
+/// w behind steady motion. Noise moves a joint back and forth, motion moves it on: the ratio of
+/// mean velocity to mean speed distinguishes them without a noise level. Only the mean velocity is
+/// passed on. Departure from eq. 1, which differentiates the target and so passes on the sensor's
+/// jitter. The thresholds are from a sweep on UI-PRMD and noisy motion capture.
 Vector3d Actor::Lead(size_t joint, const Vector3d& velocity_m_s, double dt_s) {
   constexpr double kMemory_s = 0.077;
   constexpr double kNoiseRatio = 0.4, kMotionRatio = 0.8;  // ratio of speeds
@@ -226,7 +226,7 @@ Vector3d Actor::Lead(size_t joint, const Vector3d& velocity_m_s, double dt_s) {
   mean += share * (velocity_m_s - mean);
   mean_speed += share * (velocity_m_s.norm() - mean_speed);
   const double speed = mean.norm();
-  // Who has stopped is not moving on: a jump must not echo.
+  // After a stop there is no further motion: a jump must not echo.
   const double going_on =
       std::clamp(velocity_m_s.dot(mean) / std::max(speed * speed, 1e-12), 0.0, 1.0);
   return options.lead * SmoothStep(speed / (mean_speed + 1e-9), kNoiseRatio, kMotionRatio) *

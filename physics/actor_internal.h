@@ -10,7 +10,7 @@
 namespace ossa::physics {
 
 /// A pin between the end of a bone and a point of the world or of an object: a ball joint with the
-/// compliance of a stiff spring, so that what contradicts it bends it instead of tearing the
+/// compliance of a stiff spring, so that contradictory targets bend it instead of tearing the
 /// character apart.
 class Pin {
  public:
@@ -35,14 +35,14 @@ class Pin {
   uint64_t made_;  // OdeWorld::made
 };
 
-/// What a foot's pin remembers from frame to frame.
+/// State of a foot's pin between frames.
 struct FootPinMemory {
-  std::optional<Eigen::Vector3d> smooth_m;  // the target, smoothed
+  std::optional<Eigen::Vector3d> smooth_m;  // the smoothed target
   std::vector<Eigen::Vector3d> last_m;      // the last two targets
   double noise_m = 0.0;                     // standard deviation of the target, per axis
-  double still_s = 0.0;                     // for how long the target has not moved
-  double away_s = 0.0;                      // for how long it has been away from the pin
-  double beside_s = 0.0;                    // for how long it has rested a little beside the pin
+  double still_s = 0.0;                     // time since the target last moved
+  double away_s = 0.0;                      // time since it left the pin
+  double beside_s = 0.0;                    // time it has rested slightly beside the pin
 };
 
 /// Decides when a foot carries the body, from where its target goes (Shum & Ho 2012, sec. 6.1).
@@ -52,7 +52,7 @@ class FootPin {
   void Update(OdeWorld& ode, Character& character, const std::optional<Eigen::Vector4d>& floor,
               const Eigen::Vector3d& target_m, double dt_s);
   void Clear();
-  /// As it was, on a pin where it had one.
+  /// Restores the state, including its pin if it had one.
   void Restore(OdeWorld& ode, Character& character, const std::optional<Eigen::Vector3d>& place_m);
   Pin* pin() { return pin_.get(); }
   const Pin* pin() const { return pin_.get(); }
@@ -66,14 +66,14 @@ class FootPin {
   std::unique_ptr<Pin> pin_;
 };
 
-/// What a character wants, from frame to frame.
+/// A character's targets and state between frames.
 struct ActorMemory {
   bool controlled = true;
-  recon::Posture wanted;                                       // as SetTarget was told, made finite
-  std::optional<recon::JointOrientations> wanted_orientation;  // none: as the joints tell
+  recon::Posture wanted;                                       // target of SetTarget, made finite
+  std::optional<recon::JointOrientations> wanted_orientation;  // none: derived from the joints
   recon::JointArray<double> weight{};
   recon::Posture aim, last_aim;                          // with bone lengths, above the floor
-  recon::JointArray<Eigen::Vector3d> mean_velocity_m_s;  // of the aim, see Lead
+  recon::JointArray<Eigen::Vector3d> mean_velocity_m_s;  // of `aim`, see Lead
   recon::JointArray<double> mean_speed_m_s{};
   recon::JointArray<Eigen::Vector3d> aim_velocity_m_s;
   recon::JointOrientations aim_orientation;
@@ -81,24 +81,25 @@ struct ActorMemory {
   std::vector<std::pair<size_t, Eigen::Vector3d>> pushes;  // impulses for the next substep
   std::vector<std::pair<size_t, Eigen::Vector3d>> pulls;   // forces for the next step
   double max_gap_m = 0.0;     // between anchors, before Reconnect, since the frame began
-  int rescued = 0;            // how often it was not finite
-  double dodge_left_s = 0.0;  // raised arms stay up for a moment after the threat has passed
-  double lean_left_s = 0.0;   // and who leans aside stays so
-  Eigen::Vector3d escape = Eigen::Vector3d::Zero();    // the way they lean, a unit vector
-  Eigen::Vector3d lean_rad = Eigen::Vector3d::Zero();  // how far they do, as a turn
+  int rescued = 0;            // number of rescues from non-finite motion
+  double dodge_left_s = 0.0;  // time that raised arms stay up after the threat has passed
+  double lean_left_s = 0.0;   // time that the lean is kept
+  Eigen::Vector3d escape = Eigen::Vector3d::Zero();    // direction of the lean, a unit vector
+  Eigen::Vector3d lean_rad = Eigen::Vector3d::Zero();  // current lean as a rotation vector
 };
 
-/// A character with what it wants and what holds it.
+/// A character with its targets and constraints.
 struct Actor : ActorMemory {
   Actor(OdeWorld& ode, const recon::BoneLengths& lengths, const CharacterOptions& options, int tag);
 
-  void Forget();  // all motion and trust, as at first
+  void Forget();  // resets motion and trust
   void Place(const recon::Posture& posture, const std::optional<Eigen::Vector4d>& floor);
   void SetTarget(const recon::Posture& target, std::span<const double> weight,
                  const std::optional<recon::JointOrientations>& orientation);
-  /// Whether to lean, and which way, before what flies: once per frame and thing.
+  /// Decides whether to lean, and in which direction, to avoid a flying object: once per frame and
+  /// object.
   void WatchFor(const ObjectState& thing, double radius_m, const Eigen::Vector3d& gravity_m_s2);
-  /// Once per frame: floor, feet, constraints; fills `from`, `aim` and the stiffness.
+  /// Once per frame: floor, feet, constraints; sets `from`, `aim` and the stiffness.
   void Prepare(OdeWorld& ode, const std::optional<Eigen::Vector4d>& floor, double dt_s);
   /// Once per substep, `left_s` before the end of the frame.
   void Drive(const Eigen::Vector3d& gravity_m_s2, double left_s, double h_s);
@@ -108,7 +109,7 @@ struct Actor : ActorMemory {
   uint64_t made;  // OdeWorld::made
   Character character;
   std::unique_ptr<JointLimits> limits;  // with CharacterOptions::joint_limits
-  recon::Posture first;                 // as it was added
+  recon::Posture first;                 // posture when it was added
   std::array<FootPin, 2> foot_pin = {FootPin(15), FootPin(19)};
   std::map<size_t, Anchor> soft_constraint;
   std::map<size_t, std::unique_ptr<Pin>> hard_constraint;
@@ -128,7 +129,7 @@ inline double HeightAbove(const Eigen::Vector4d& floor, const Eigen::Vector3d& p
   return floor.head<3>().dot(point) + floor[3];
 }
 
-/// Something that flies at a head: when and how near it will come.
+/// An object flying at a head: time and distance of its closest approach.
 struct Threat {
   double time_s;
   double distance_m;
@@ -136,12 +137,13 @@ struct Threat {
 std::optional<Threat> ThreatTo(const Eigen::Vector3d& head_m, const Eigen::Vector3d& head_velocity,
                                const ObjectState& object);
 
-/// Which way something that flies leaves most room beside `place_m`: a unit vector at right angles
-/// to `gravity_m_s2`; none where it passes at `near_m` or more. A throw's curve is foreseen.
+/// The direction in which a flying object leaves most room beside `place_m`: a unit vector
+/// perpendicular to `gravity_m_s2`; none if it passes at `near_m` or more. Assumes a ballistic
+/// trajectory.
 std::optional<Eigen::Vector3d> EscapeFrom(const ObjectState& thing, const Eigen::Vector3d& place_m,
                                           double near_m, const Eigen::Vector3d& gravity_m_s2);
 
-/// Turns head, trunk and arms about the hips.
+/// Rotates head, trunk and arms about the hips.
 void LeanBy(const Eigen::Vector3d& turn_rad, recon::Posture& target);
 
 /// Sec. 8.2: moves the targets of elbows, wrists and hands so that the forearms cover the head.

@@ -10,8 +10,9 @@ namespace {
 using recon::Joint;
 using recon::kJointCount;
 
-/// One row of the table. `gyration` are radii of gyration as fractions of the bone's length, across
-/// (mean of sagittal and transverse) and along; `radius` of 0 means "from mass and density".
+/// One row of the table. `gyration`: radii of gyration as fractions of the bone's length, across
+/// (mean of the sagittal and the transverse one) and along it; a `radius` of 0 is derived from mass
+/// and density.
 struct Row {
   double mass_fraction;
   double gyration_across, gyration_along;
@@ -19,8 +20,8 @@ struct Row {
   double capsule_from, capsule_to;
 };
 
-// Of the trunk and the hand the published radii refer to other lengths than our bones'; there a
-// uniform rod (0.29) stands in. The axial radius of a trunk bone comes from its capsule.
+// For trunk and hand the published radii refer to other lengths than our bones'; a uniform rod
+// (0.29) is used instead. The axial radius of a trunk bone is that of its capsule.
 constexpr Row kSpineRow = {0.1553, 0.29, 0.0, 0.062, 0.0, 1.0};
 constexpr Row kChestRow = {0.1150, 0.29, 0.0, 0.062, 0.0, 0.75};
 constexpr Row kHeadRow = {0.0681, 0.345, 0.0, 0.050, 0.55, 1.05};
@@ -82,13 +83,13 @@ Segment MakeSegment(const Row& row, double length_m, double stature_m, double ma
       row.radius_over_stature > 0.0
           ? row.radius_over_stature * stature_m
           : std::sqrt(segment.mass_kg / (kTissueDensity_kg_m3 * std::numbers::pi * length_m));
-  // A sensor's bone may be odd: a forearm of 5 cm must not become a barrel.
+  // Sensor bones may be wrong: limits the radius of very short bones.
   segment.radius_m = std::min(segment.radius_m, 0.08 * stature_m);
   const double across_m = row.gyration_across * length_m;
   const double along_m = row.gyration_along > 0.0 ? row.gyration_along * length_m
                                                   : segment.radius_m / std::numbers::sqrt2;
   segment.transverse_inertia_kgm2 = segment.mass_kg * across_m * across_m;
-  // No real body turns harder about one axis than about the two others together.
+  // A rigid body's moment of inertia about an axis is at most the sum of the other two.
   segment.axial_inertia_kgm2 =
       std::min(segment.mass_kg * along_m * along_m, 2.0 * segment.transverse_inertia_kgm2);
   segment.capsule_from = row.capsule_from;

@@ -57,7 +57,8 @@ void Character::MakeBody(OdeWorld& ode, size_t bone, int tag) {
   dMassSetParameters(&mass, segment.mass_kg, 0, 0, 0, segment.transverse_inertia_kgm2,
                      segment.axial_inertia_kgm2, segment.transverse_inertia_kgm2, 0, 0, 0);
   dBodySetMass(body, &mass);
-  // The explicit gyroscopic term gains energy in thin bodies; a limb's is far below control forces.
+  // The explicit gyroscopic term adds energy to thin bodies; for limbs it is far below control
+  // forces.
   dBodySetGyroscopicMode(body, 0);
   dBodySetAutoDisableFlag(body, 0);
   dBodySetData(body, reinterpret_cast<void*>(static_cast<intptr_t>(bone)));
@@ -66,8 +67,8 @@ void Character::MakeBody(OdeWorld& ode, size_t bone, int tag) {
 
   const double from = segment.capsule_from * segment.length_m;
   const double to = segment.capsule_to * segment.length_m;
-  // A foot's caps lie round its joints, whose height above the floor is the sole's; other bones
-  // share theirs with their neighbours.
+  // A foot's capsule ends are centred on its joints, at the height of the sole; other bones share
+  // theirs with their neighbours.
   const bool foot = bone == 15 || bone == 19;
   const double cylinder = std::max(to - from - (foot ? 0.0 : segment.radius_m), 0.01);
   const dGeomID geom = geom_[bone] =
@@ -115,7 +116,7 @@ void Character::Place(const recon::Posture& posture, const recon::JointOrientati
     dBodySetTorque(body_[bone], 0, 0, 0);
   }
   SetVelocity(Vector3d::Zero());
-  // A ball joint remembers its place in both bodies from the moment the anchor is set.
+  // A ball joint stores its position in both bodies when the anchor is set.
   for (size_t bone = 2; bone < kJointCount; ++bone) {
     const Vector3d anchor = posture.position_m[recon::ParentOf(bone)];
     if (IsHinge(ball_[bone])) {
@@ -152,7 +153,7 @@ Vector3d Character::JointVelocity(size_t joint) const {
 
 recon::Posture Character::posture() const {
   recon::Posture posture;
-  Vector3d drift = Vector3d::Zero();  // mass-weighted, of the rebuilt bones from the bodies
+  Vector3d drift = Vector3d::Zero();  // of the rebuilt bones, mass-weighted
   posture.position_m[0] = JointPosition(0);
   for (size_t bone = 1; bone < kJointCount; ++bone) {
     const Vector3d& start = posture.position_m[recon::ParentOf(bone)];
@@ -239,8 +240,8 @@ void Character::Drive(const ControlTarget& target, const ControlGains& gains,
   }
 }
 
-/// Departure: the weight of a controlled joint is carried by the controller, else the character
-/// would hang g / w^2 (5 mm) below its target. A joint let go of falls.
+/// Departure: the controller compensates the weight of a controlled joint; otherwise the character
+/// would hang g / w^2 (5 mm) below its target. A released joint falls.
 void Character::CarryWeight(const ControlTarget& target, const Vector3d& gravity_m_s2) {
   for (size_t joint = 0; joint < kJointCount; ++joint) {
     if (target.stiffness[joint] > 0.0) AddForceAtJoint(joint, -lumped_kg_[joint] * gravity_m_s2);
@@ -256,13 +257,13 @@ void Character::DrivePositions(const ControlTarget& target, const ControlGains& 
   }
 }
 
-/// Eq. 2 / 17. The rotation about a bone's axis moves no joint, so each bone answers for itself.
+/// Eq. 2 / 17. Axial rotation of a bone moves no joint, so each bone is controlled independently.
 void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains) {
   for (size_t bone = 1; bone < kJointCount; ++bone) {
     if (target.stiffness[bone] <= 0.0) continue;
     const Quaterniond now = QuaternionToEigen(dBodyGetQuaternion(body_[bone]));
     const Vector3d axis = AxisOf(body_[bone]);
-    // The target's frame swung onto the present axis leaves the difference about it.
+    // After swinging the target frame onto the current axis, only the axial difference remains.
     const Quaterniond swing =
         recon::SmallestTurn(target.orientation[bone] * Vector3d::UnitY(), axis);
     const Vector3d x_target = swing * (target.orientation[bone] * Vector3d::UnitX());
@@ -276,13 +277,15 @@ void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains
   }
 }
 
-/// The alternative: a servo per ball joint that turns each bone, relative to its parent, towards
-/// the target's orientation, and a linear one that carries the trunk. The servo's speed is gain x
-/// error; gain h = 0.15 stays far below the limit of 2 and makes the lag that of the positional
-/// control (2 / w). Solved with the joints, it needs no derivation to be stable.
+/// The alternative control: an angular servo per ball joint that rotates each bone, relative to its
+/// parent, towards the target's orientation, and a linear servo for the trunk. The servo's speed is
+/// gain x error. gain h = 0.15 is far below the stability limit of 2 and gives the lag of
+/// positional control (2 / w). Servos are solved together with the joints, so they are
+/// unconditionally stable.
 void Character::DriveMotors(const ControlTarget& target, const ControlGains& gains, double h_s) {
-  // The share of a bone's turning that its servo gets as its target. 1: 0.37 frames late on UI-PRMD
-  // and 48 % less shaken than the sensor; 0.7: 0.50 frames and 53 %; 0.4: 0.66 frames and 56 %.
+  // Share of a bone's angular velocity that its servo gets as feed-forward. 1: 0.37 frames of lag
+  // on UI-PRMD and 48 % less jitter than the sensor; 0.7: 0.50 frames and 53 %; 0.4: 0.66 frames
+  // and 56 %.
   constexpr double kVelocityShare = 0.7;  // chosen so, between lag and noise
   const double gain = std::min(0.5 * gains.rate_rad_s, 0.5 / h_s);
   const auto set = [](dJointID motor, bool linear, const Vector3d& speed, double bound) {
@@ -304,7 +307,8 @@ void Character::DriveMotors(const ControlTarget& target, const ControlGains& gai
         parent == 0 ? Quaterniond::Identity() : target.orientation[parent];
     const Quaterniond wanted = parent_now * parent_target.conjugate() * target.orientation[bone];
     const bool held = target.stiffness[bone] > 0.0;
-    // Torque bound: what the force bound at the bone's far end and all beyond it would give.
+    // Torque bound: that of the maximum force at the bone's far end, including everything beyond
+    // it.
     const double bound = gains.max_acceleration_m_s2 * 0.3 * segments_[bone].length_m *
                          (bone == 1 ? total_mass_kg_ : 4.0 * segments_[bone].mass_kg);
     Vector3d turning = kVelocityShare * target.angular_velocity_rad_s[bone];

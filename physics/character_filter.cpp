@@ -14,7 +14,7 @@ using recon::Posture;
 
 // Constants: chosen by hand.
 constexpr double kLongestStep_s = 0.25;
-constexpr double kFarthestTarget_m = 1000.0;  // what is said to be farther is nowhere
+constexpr double kFarthestTarget_m = 1000.0;  // farther targets are invalid
 
 bool IsUsable(const Eigen::Vector3d& place_m) {
   return place_m.allFinite() && place_m.cwiseAbs().maxCoeff() <= kFarthestTarget_m;
@@ -31,7 +31,7 @@ struct CharacterFilter::Impl {
   CharacterFilterOptions options;
   World world;
   int character = 0;
-  bool alive = false;  // has been placed since the start or the last Reset
+  bool alive = false;  // placed since construction or the last Reset
   int far_frames = 0;
 };
 
@@ -74,7 +74,7 @@ CharacterFilter::Impl::Impl(const recon::BoneLengths& lengths,
                             const CharacterFilterOptions& filter_options)
     : options(filter_options), world(MakeWorldOptions(filter_options)) {
   options.Check();
-  // Where it waits if the first target is not complete.
+  // Initial posture if the first target is incomplete.
   character =
       world.AddCharacter(lengths, recon::BuildTPose(lengths), MakeCharacterOptions(options));
 }
@@ -88,7 +88,7 @@ bool CharacterFilter::Impl::MustPlace(const Posture& target, double dt_s) {
   return far_frames >= options.teleport_frames;
 }
 
-/// Puts the character on its target; joints that are unknown keep their bones' directions.
+/// Places the character at its target; unknown joints keep their bones' directions.
 void CharacterFilter::Impl::PlaceAt(const Posture& target,
                                     const std::optional<recon::JointOrientations>& orientation) {
   Posture known = target;
@@ -113,7 +113,7 @@ FilteredPosture CharacterFilter::Step(const Posture& seen, std::span<const doubl
                                       const std::optional<recon::JointOrientations>& orientation) {
   Impl& f = *impl_;
   Posture target = seen;
-  // What nobody trusts may not say where the person is either.
+  // Untrusted joints must not determine the person's position, either.
   for (size_t i = 0; i < weight.size() && i < kJointCount; ++i) {
     if (!(weight[i] > 0.0)) target.position_m[i].setConstant(std::nan(""));
   }

@@ -12,16 +12,17 @@ namespace {
 // Constants: chosen by hand, where no derivation is said.
 
 // Contacts are implicit springs, stable at any stiffness: a leg pressed down with the largest
-// control force (2 kg x 250 m/s^2) sinks 0.1 mm. Damping takes half of an overlap away in a
+// control force (2 kg x 250 m/s^2) sinks in by 0.1 mm. Damping removes half of an overlap per
 // substep.
 constexpr double kStiffness_n_m = 4e6;
 constexpr double kDamping_ns_m = 12000.0;
-/// Own limbs have a soft skin, where the target rules: bodies are softer and slimmer than capsules,
-/// and sensors put folded arms a little into the chest. Deeper nothing gets.
+/// Depth of the soft skin between a character's own limbs, within which the target prevails: bodies
+/// are softer and slimmer than capsules, and sensors place folded arms slightly inside the chest.
+/// This is the maximum penetration.
 constexpr double kSkin_m = 0.03;
 constexpr double kSelfStiffness_n_m = 3e3;
 constexpr double kSelfDamping_ns_m = 60.0;
-/// Gaps below this are contacts at once: control can close them within a substep (250 m/s^2 x h^2).
+/// Gaps below this count as contacts: control can close them within a substep (250 m/s^2 x h^2).
 constexpr double kSlop_m = 0.003;
 constexpr double kTouching_m = 0.0005;
 
@@ -32,7 +33,7 @@ Vector3d VelocityAt(dBodyID body, const dReal* point) {
   return ToEigen(v);
 }
 
-/// Speed at which the two come together, m/s; 0 if they do not. ODE's normal points into `a`.
+/// Approach speed, m/s; 0 if they separate. ODE's normal points into `a`.
 double Approach(dGeomID a, dGeomID b, const dContact& c) {
   const Vector3d relative =
       VelocityAt(dGeomGetBody(a), c.geom.pos) - VelocityAt(dGeomGetBody(b), c.geom.pos);
@@ -52,7 +53,7 @@ const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
     };
     add_all({6, 7, 10, 11}, {1, 2, 3});                 // forearms, hands; trunk, head
     add_all({6, 7}, {9, 10, 11});                       // the other arm
-    add_all({10, 11}, {5});                             // and the other way round
+    add_all({10, 11}, {5});                             // and vice versa
     add_all({13, 14, 15}, {17, 18, 19});                // leg and leg
     add_all({6, 7, 10, 11}, {13, 14, 15, 17, 18, 19});  // forearms, hands; legs
     return list;
@@ -60,8 +61,9 @@ const std::vector<std::array<size_t, 2>>& SelfCollisionPairs() {
   return pairs;
 }
 
-/// ODE finds one point between a capsule and a box, about which the box turns freely. A hand that
-/// grips and a forearm that carries lie along the box: the ends of the capsule count too.
+/// ODE finds one point between a capsule and a box, about which the box rotates freely. Gripping
+/// hands and carrying forearms are in contact along the box: the ends of the capsule are contacts,
+/// too.
 int World::Impl::CapsuleEndsOnBox(dGeomID a, dGeomID b, dContact* contact) {
   const bool first = dGeomGetClass(a) == dCapsuleClass;
   const dGeomID capsule = first ? a : b, box = first ? b : a;
@@ -116,9 +118,8 @@ void World::Impl::CollidePair(dGeomID a, dGeomID b) {
   }
 }
 
-/// Limbs' geoms are larger than the limbs by the margin. Within it a contact lets them approach as
-/// far as the gap allows in this substep and no further, so that a fast ball does not end up inside
-/// the limb before anything resists.
+/// Limb geoms include a margin. Within it a contact limits the approach to the remaining gap per
+/// substep, so that a fast ball is stopped before it is inside the limb.
 void World::Impl::Touch(dGeomID a, dGeomID b, dContact c, const Surface& surface, double depth_m) {
   const double closing = Approach(a, b, c) * step_s;
   if (depth_m < 0.0 && depth_m + closing + kSlop_m < 0.0) return;
@@ -137,7 +138,7 @@ void World::Impl::Touch(dGeomID a, dGeomID b, dContact c, const Surface& surface
   Join(a, b, c, depth_m);
 }
 
-/// The skin of a character's own limbs.
+/// Contact between a character's own limbs, with soft skin.
 void World::Impl::Press(dGeomID a, dGeomID b, dContact c, double depth_m) {
   const SoftConstraint soft = SpringDamper(kSelfStiffness_n_m, kSelfDamping_ns_m, step_s);
   Note(a, b, depth_m);
@@ -163,7 +164,7 @@ void World::Impl::Join(dGeomID a, dGeomID b, const dContact& contact, double dep
 
 bool World::Impl::MayMeet(dGeomID a, dGeomID b) const {
   const Party side[] = {PartyOf(a), PartyOf(b)};
-  // A character's own pairs are listed, not found; an object's own parts are one.
+  // A character's own pairs are listed explicitly; parts of an object do not collide.
   if (side[0].kind == side[1].kind && side[0].id == side[1].id) return false;
   uint32_t groups[2], meets[2];
   bool moved = false;
@@ -173,7 +174,7 @@ bool World::Impl::MayMeet(dGeomID a, dGeomID b) const {
     moved |= !is_object || thing->IsMoved();
     groups[k] = is_object ? thing->info.groups : actors.at(side[k].id)->options.groups;
     meets[k] = is_object ? thing->info.collides_with : actors.at(side[k].id)->options.collides_with;
-    // Neither the bone that holds a thing nor the one before it hits it.
+    // An object does not collide with the bone that holds it or with that bone's parent.
     const dBodyID other = dGeomGetBody(k == 0 ? b : a);
     if (is_object && std::any_of(thing->grips.begin(), thing->grips.end(),
                                  [other](const Grip& grip) { return grip.beside == other; })) {
@@ -186,7 +187,8 @@ bool World::Impl::MayMeet(dGeomID a, dGeomID b) const {
   return !callbacks.may_meet || callbacks.may_meet(side[0], side[1]);
 }
 
-/// Pairs that the space finds, in an order of their own: the space's depends on what moved when.
+/// Collides the pairs found by the space, in a deterministic order: the space's own depends on its
+/// history.
 void World::Impl::CollideNear() {
   near.clear();
   dSpaceCollide(ode.space, this, [](void* self, dGeomID a, dGeomID b) {

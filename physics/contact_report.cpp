@@ -1,4 +1,4 @@
-// What a world tells of its contacts.
+// Contact reports of a world.
 #include <algorithm>
 #include <utility>
 
@@ -33,7 +33,7 @@ void World::Impl::Note(dGeomID a, dGeomID b, double depth_m) {
   }
 }
 
-/// What each contact joint of this substep pressed with.
+/// Collects the impulse of each contact joint of this substep.
 void World::Impl::GatherImpulses(double h_s) {
   const auto key_of = [](const Party& party) {
     const int kind = static_cast<int>(party.kind);

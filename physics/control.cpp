@@ -10,7 +10,7 @@ double LargestStableRate(double h_s) {
   return kLargestRateTimesStep / h_s;
 }
 
-// `stiffness` in (0, 1] slows a joint that is trusted less: it scales w, so damping stays critical.
+// `stiffness` in (0, 1] slows joints of lower trust: it scales w, so damping stays critical.
 Eigen::Vector3d ControlForce(const ControlGains& gains, double stiffness, double mass_kg,
                              const Eigen::Vector3d& position_error_m,
                              const Eigen::Vector3d& velocity_error_m_s) {

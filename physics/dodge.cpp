@@ -3,19 +3,22 @@
 #include "physics/actor_internal.h"
 #include "recon/orientation.h"
 
-// Constants: by hand, on the scenes of Shum & Ho 2012 section 8.3.
 namespace ossa::physics {
-
-// Constants: chosen by hand.
 
 using Eigen::Vector3d;
 using recon::Joint;
 
+namespace {
+
+// Constants: by hand, on the scenes of Shum & Ho 2012 section 8.3.
+constexpr double kSlow_m_s = 1.5;   // slower objects are carried or rolling
+constexpr double kHorizon_s = 0.6;  // a person's warning time
+
+}  // namespace
+
 std::optional<Threat> ThreatTo(const Vector3d& head_m, const Vector3d& head_velocity,
                                const ObjectState& object) {
-  constexpr double kSlow_m_s = 1.5;   // slower things are being carried or rolling
-  constexpr double kHorizon_s = 0.6;  // a person's warning time
-  constexpr double kNear_m = 0.45;    // passes this near the head's centre
+  constexpr double kNear_m = 0.45;  // passes this near the head's centre
   const Vector3d velocity = object.velocity_m_s - head_velocity;
   const double speed = velocity.norm();
   if (speed < kSlow_m_s) return std::nullopt;
@@ -29,10 +32,8 @@ std::optional<Threat> ThreatTo(const Vector3d& head_m, const Vector3d& head_velo
 
 std::optional<Vector3d> EscapeFrom(const ObjectState& thing, const Vector3d& place_m, double near_m,
                                    const Vector3d& gravity_m_s2) {
-  constexpr double kSlow_m_s = 1.5;    // slower things are being carried or rolling
-  constexpr double kHorizon_s = 0.6;   // a person's warning time
   constexpr double kStep_s = 0.02;     // 16 cm of a fast throw
-  constexpr double kCentral_m = 0.03;  // what comes nearer the middle leaves no side
+  constexpr double kCentral_m = 0.03;  // nearer to the centre no side is preferred
   if (thing.velocity_m_s.norm() < kSlow_m_s) return std::nullopt;
   Vector3d nearest = Vector3d::Constant(near_m), flight = thing.velocity_m_s;
   bool found = false;
@@ -45,7 +46,7 @@ std::optional<Vector3d> EscapeFrom(const ObjectState& thing, const Vector3d& pla
     found = true;
   }
   const Vector3d up = -gravity_m_s2.stableNormalized();
-  const Vector3d aside = up.cross(flight);  // of no use where it falls straight down
+  const Vector3d aside = up.cross(flight);  // undefined if it falls vertically
   if (!found || up.isZero()) return std::nullopt;
   Vector3d away = nearest - nearest.dot(up) * up;
   away -= away.dot(flight) / std::max(flight.squaredNorm(), 1e-12) * flight;
@@ -57,7 +58,7 @@ std::optional<Vector3d> EscapeFrom(const ObjectState& thing, const Vector3d& pla
 void LeanBy(const Vector3d& turn_rad, recon::Posture& target) {
   const Eigen::AngleAxisd turn(turn_rad.norm(), turn_rad.stableNormalized());
   const Vector3d hips = target[Joint::kHipCenter];
-  constexpr size_t kLast = recon::Index(Joint::kHandRight);  // below it are the legs
+  constexpr size_t kLast = recon::Index(Joint::kHandRight);  // the following joints are the legs
   for (size_t i = recon::Index(Joint::kSpine); i <= kLast; ++i) {
     target.position_m[i] = hips + turn * (target.position_m[i] - hips);
   }
@@ -78,8 +79,7 @@ void RaiseForearms(const recon::BoneLengths& lengths, recon::Posture& target) {
       {{Joint::kShoulderLeft, Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft, 1.0},
        {Joint::kShoulderRight, Joint::kElbowRight, Joint::kWristRight, Joint::kHandRight, -1.0}}};
   for (const Arm& arm : kArms) {
-    // Upper arm forward and a little up; forearm upright before the side of the face, hands at the
-    // height of the brow.
+    // Upper arm forwards and slightly up; forearm upright beside the face, hands at brow height.
     const Vector3d along = (0.95 * front + 0.25 * up + 0.05 * arm.side * left).normalized();
     target[arm.elbow] = target[arm.shoulder] + lengths[static_cast<size_t>(arm.elbow)] * along;
     const Vector3d brow = head + 0.17 * front + 0.08 * up + 0.06 * arm.side * left;

@@ -1,4 +1,4 @@
-// What holds a world's objects: hands, and what they hang on.
+// Holds objects: by hands, or at fixed points.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -13,13 +13,13 @@ namespace {
 
 // Constants: by hand.
 
-/// How slowly hands slip that press on each other through what they hold: against an arm that is
-/// held with 200 to 2000 N/m for a fifth of a second to two.
+/// Damping of slipping hands that press on each other through a held object: with an arm stiffness
+/// of 200 to 2000 N/m, the time constant is a fifth of a second to two.
 constexpr double kSlip_ns_m = 400.0;
-/// Never faster: a body behind a straight arm may press with kilonewtons.
+/// Speed limit: a body behind a straight arm may press with kilonewtons.
 constexpr double kFastestSlip_m_s = 1.0;
-/// They slip to its surface: no nearer than a hand is thick; and off it no further than arms give
-/// way. Whose hands go further apart than that pull the hold open.
+/// Hands slip along the object's surface: no nearer than a hand's thickness, and off it no farther
+/// than the compliance of arms. Hands that move farther apart than that release the hold.
 constexpr double kHandOffSurface_m = 0.03;
 constexpr double kFurtherOff_m = 0.2;
 
@@ -29,10 +29,10 @@ void SetAnchorOnThing(const Grip& grip) {
   dJointSetBallAnchor2(grip.joint, at.x(), at.y(), at.z());
 }
 
-/// Of the hand, in the last substep, in the world.
+/// Force of the hand on the object in the last substep, world axes.
 Vector3d PullOnThing(const Grip& grip) { return -ToEigen(grip.feedback->f1); }
 
-/// All hands that hold a thing and may slip on it.
+/// All hands that hold an object and may slip on it.
 struct Together {
   std::vector<Grip*> grips;
   Vector3d sum_m = Vector3d::Zero(), sum_n = Vector3d::Zero();
@@ -46,13 +46,13 @@ struct Together {
   Vector3d Mean_n() const { return sum_n / static_cast<double>(grips.size()); }
 };
 
-/// A motor without speed: it keeps one body from turning in the other, as hard as it may.
+/// An angular motor with zero speed: resists relative rotation with limited torque.
 dJointID MakeTurningFriction(dWorldID world, dBodyID hand, dBodyID thing, double torque_nm) {
   const dJointID motor = dJointCreateAMotor(world, nullptr);
   dJointAttach(motor, hand, thing);
   dJointSetAMotorMode(motor, dAMotorUser);
   dJointSetAMotorNumAxes(motor, 3);
-  constexpr int kOfHand = 1;  // the axes turn with the first body
+  constexpr int kOfHand = 1;  // axes are fixed to the first body
   for (int axis = 0; axis < 3; ++axis) {
     const dReal* turn = dBodyGetRotation(hand);  // rows of four
     dJointSetAMotorAxis(motor, axis, kOfHand, turn[axis], turn[4 + axis], turn[8 + axis]);
@@ -85,9 +85,8 @@ void World::Impl::Connect(const Thing& thing, Grip& grip) {
   SetAnchorOnThing(grip);
 }
 
-/// Who lifts a thing with others braces for their share of its weight, as for that of their own
-/// limbs.
-void World::Impl::CarryTogether() {
+/// Several holders of an object each compensate their share of its weight, as for their own limbs.
+void World::Impl::ShareCarriedWeight() {
   for (const auto& [id, thing] : things) {
     const auto slips = [](const Grip& grip) { return grip.turning != nullptr; };
     const auto hands = std::count_if(thing.grips.begin(), thing.grips.end(), slips);
@@ -102,10 +101,10 @@ void World::Impl::CarryTogether() {
   }
 }
 
-/// Hands that hold a thing together and are nearer to each other, or further apart, than they were
-/// when they took it would work against each other through it, and no arm could follow its target:
-/// they slip along the line between them, as in oil.
-void World::Impl::SlipHolds(double h_s) {
+/// Hands that hold an object together and are nearer to each other, or farther apart, than when
+/// they took it would work against each other through it, and no arm could follow its target. They
+/// slip along the line between them with viscous friction.
+void World::Impl::SlipGrips(double h_s) {
   for (auto& [id, thing] : things) {
     Together together;
     for (Grip& grip : thing.grips) {
@@ -122,7 +121,7 @@ void World::Impl::SlipHolds(double h_s) {
                                              -kFastestSlip_m_s, kFastestSlip_m_s) *
                                   outwards;
       const double off_m = DistanceToObject(thing.info, to_m + thing.middle_m);
-      // Not either where the force is no number.
+      // Also false for a NaN force.
       if (!(off_m >= std::min(grip->taken_off_m, kHandOffSurface_m) &&
             off_m <= std::max(grip->taken_off_m, kHandOffSurface_m) + kFurtherOff_m)) {
         continue;

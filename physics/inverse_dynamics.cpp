@@ -1,5 +1,5 @@
-// Inverse dynamics: from how a body moved to what moved it (Winter 2009, chs. 5 and 7; the
-// equations of Newton and Euler, segment by segment from hands, head and feet inwards).
+// Inverse dynamics: forces and torques from motion (Winter 2009, chs. 5 and 7; Newton-Euler
+// equations, segment by segment from hands, head and feet inwards).
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -19,14 +19,15 @@ using Eigen::Vector4d;
 using recon::Joint;
 using recon::kJointCount;
 
-/// One bone at one moment: its middle, which is its centre of mass.
+/// The motion of one bone at one time: its middle, which is its centre of mass.
 struct BoneMotion {
   Vector3d middle_m, acceleration_m_s2;
   Vector3d angular_momentum_rate_nm;  // about the middle
 };
 using BodyMotion = recon::JointArray<BoneMotion>;
 
-/// The value, first and second derivative at 0 of the parabola nearest to samples at times t.
+/// Value, first and second derivative at 0 of the least-squares parabola through samples at times
+/// t.
 struct Parabola {
   Vector3d value, rate, acceleration;
 };
@@ -43,7 +44,7 @@ Parabola FitParabola(const std::vector<double>& t, const std::vector<Vector3d>& 
   return {c.row(0).transpose(), c.row(1).transpose(), 2.0 * c.row(2).transpose()};
 }
 
-/// The frames that derivatives at `frame` are taken from: all within the window, three at least.
+/// The frames used for derivatives at `frame`: all within the window, at least three.
 struct Window {
   size_t from, to;  // one past the last
 };
@@ -76,7 +77,8 @@ BodyMotion MotionAt(std::span<const BodyPose> motion, size_t frame, const Segmen
       middles.emplace_back(0.5 * (p[i] + p[recon::ParentOf(i)]));
       turns.push_back(recon::ToRotationVector(motion[k].orientation[i] * now.conjugate()));
     }
-    // About no turn the rotation vector's derivatives are the angular velocity and acceleration.
+    // At zero rotation the derivatives of the rotation vector are angular velocity and
+    // acceleration.
     const Parabola place = FitParabola(t, middles), turn = FitParabola(t, turns);
     const Segment& s = segments[i];
     const Matrix3d axes = now.toRotationMatrix();
@@ -91,7 +93,7 @@ BodyMotion MotionAt(std::span<const BodyPose> motion, size_t frame, const Segmen
   return body;
 }
 
-/// A force and where it presses, and a moment.
+/// A force with its point of application, and a moment.
 struct Wrench {
   Vector3d force_n = Vector3d::Zero(), moment_nm = Vector3d::Zero(), at_m = Vector3d::Zero();
 };
@@ -100,7 +102,7 @@ Vector3d OntoFloor(const Vector4d& floor, const Vector3d& p) {
   return p - (floor.head<3>().dot(p) + floor[3]) * floor.head<3>();
 }
 
-/// All that the ground must press with for the body to move as it does.
+/// The total ground reaction needed for the body's motion.
 Wrench GroundWrench(const BodyMotion& body, const Segments& segments, const Vector3d& gravity,
                     const Vector4d& floor, Dynamics& result) {
   Wrench ground;
@@ -118,12 +120,12 @@ Wrench GroundWrench(const BodyMotion& body, const Segments& segments, const Vect
     ground.moment_nm +=
         body[i].angular_momentum_rate_nm + (body[i].middle_m - ground.at_m).cross(force);
   }
-  // By hand: who presses with less than a twentieth of the weight is in the air
+  // By hand: below a twentieth of the weight the body is airborne
   constexpr double kAirborne = 0.05;
   const Vector3d up = floor.head<3>();
   const double pressing = ground.force_n.dot(up);
   if (pressing < kAirborne * mass_kg * gravity.norm() || gravity.isZero()) return ground;
-  // Where nothing but a moment about the floor's normal is left.
+  // The centre of pressure: only a moment about the floor's normal remains.
   const Vector3d aside = up.cross(ground.moment_nm) / pressing;
   ground.at_m += aside;
   ground.moment_nm = (ground.moment_nm - aside.cross(ground.force_n)).dot(up) * up;
@@ -131,14 +133,14 @@ Wrench GroundWrench(const BodyMotion& body, const Segments& segments, const Vect
   return ground;
 }
 
-/// Below the middle of each foot.
+/// The floor points below the middle of each foot.
 std::array<Vector3d, 2> FeetOnFloor(const recon::Posture& posture, const Vector4d& floor) {
   return {OntoFloor(floor, 0.5 * (posture[Joint::kFootLeft] + posture[Joint::kAnkleLeft])),
           OntoFloor(floor, 0.5 * (posture[Joint::kFootRight] + posture[Joint::kAnkleRight]))};
 }
 
-/// How much of the ground's force the right foot carries: a foot off the floor nothing; of two that
-/// stand, as the centre of pressure divides the way between them.
+/// The right foot's share of the ground reaction: 0 for a foot off the floor; between two standing
+/// feet it follows from the position of the centre of pressure.
 double RightShare(const recon::Posture& posture, const Vector4d& floor, const Vector3d& pressure_m,
                   double sole_m) {
   constexpr double kStands_m = 0.05;  // by hand: of a foot joint above the sole
@@ -150,7 +152,7 @@ double RightShare(const recon::Posture& posture, const Vector4d& floor, const Ve
   return std::clamp((pressure_m - left).dot(way) / std::max(way.squaredNorm(), 1e-9), 0.0, 1.0);
 }
 
-/// What each foot is pressed with. Two feet's moments about the centre of pressure cancel.
+/// Ground reaction of each foot. The moments of two feet about the centre of pressure cancel.
 std::array<Wrench, 2> ShareOut(const Wrench& ground, const recon::Posture& posture,
                                const Vector4d& floor, double sole_m) {
   const double right = RightShare(posture, floor, ground.at_m, sole_m);
@@ -163,7 +165,7 @@ std::array<Wrench, 2> ShareOut(const Wrench& ground, const recon::Posture& postu
       Wrench{right * ground.force_n, right * ground.moment_nm, ground.at_m + (1.0 - right) * way}};
 }
 
-/// From the ends inwards: what each bone's beginning must be pressed and turned with.
+/// From the extremities inwards: force and torque at the start of each bone.
 void SolveJoints(const BodyMotion& body, const recon::Posture& posture, const Segments& segments,
                  const Vector3d& gravity, const std::array<Wrench, 2>& feet, Dynamics& result) {
   result.force_n.fill(Vector3d::Zero());

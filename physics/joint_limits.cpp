@@ -16,12 +16,12 @@ using Eigen::Vector3d;
 
 // Constants: chosen by hand, where no source is said.
 
-constexpr double kBound_nm = 200.0;    // what ligaments bear, about
-constexpr double kReturn_rad_s = 8.0;  // fastest way back
+constexpr double kBound_nm = 200.0;    // approximate strength of ligaments
+constexpr double kReturn_rad_s = 8.0;  // maximum return speed
 
 struct Row {
   size_t left_bone, right_bone;
-  Vector3d middle;  // of the left bone, in the T-pose that faces +z
+  Vector3d middle;  // direction of the left bone in the T-pose facing +z
   double reach_deg, twist_deg;
 };
 
@@ -29,11 +29,11 @@ struct Row {
 
 /// After D. C. Boone & S. P. Azen, "Normal range of motion of joints in male subjects", J. Bone and
 /// Joint Surgery 61-A, 1979 (elbow flexion 143 degrees, knee 143, hip 122 forward and 10 back,
-/// shoulder 167 forward and 62 back, wrist 76 and 75, ankle 13 up and 56 down, hip turned 47 in and
-/// out), widened by 5-20 degrees, for people differ and joints found by sensors lie off the
-/// anatomical ones. ossa's authored clips stay within them but for some deep squats.
-/// Departure: each range is a cone, whose sections are rounder than those of real joints, and a
-/// turn that does not depend on the swing.
+/// shoulder 167 forward and 62 back, wrist 76 and 75, ankle 13 up and 56 down, hip rotation 47 in
+/// and out), widened by 5-20 degrees, because people differ and sensor joints are not the
+/// anatomical ones. ossa's authored clips are within these ranges except for some deep squats.
+/// Departure: each range is a circular cone, while real cross-sections are not, and the axial range
+/// does not depend on the swing.
 const std::vector<JointRange>& JointRanges() {
   static const std::vector<JointRange> ranges = [] {
     const double bent = 70.0 * kDegree;  // the middle of a hinge's range
@@ -67,7 +67,7 @@ Excess SwingExcess(const JointRange& range, const recon::JointOrientations& orie
   const Vector3d along = orientation[range.bone] * Vector3d::UnitY();
   const Vector3d middle = orientation[BodyParentOf(range.bone)] * range.middle_of_parent;
   const Vector3d across = along.cross(middle);
-  // Straight opposite the middle any axis across leads back.
+  // Exactly opposite the middle any perpendicular axis is valid.
   const Vector3d axis =
       across.norm() < 1e-9 ? along.unitOrthogonal() : Vector3d(across.normalized());
   return {std::atan2(across.norm(), along.dot(middle)) - range.reach_rad, axis};
@@ -88,7 +88,7 @@ Excess TwistExcess(const JointRange& range, const recon::JointOrientations& orie
 
 namespace {
 
-/// Turns the bone that ends in `bone` about its start, and all that hangs on it.
+/// Rotates the bone that ends in `bone` about its start, with everything attached to it.
 void Turn(recon::Posture& posture, size_t bone, const Eigen::Quaterniond& by) {
   recon::JointArray<bool> moves{};
   const Vector3d pivot = posture.position_m[recon::ParentOf(bone)];
@@ -98,9 +98,10 @@ void Turn(recon::Posture& posture, size_t bone, const Eigen::Quaterniond& by) {
   }
 }
 
-/// The turn of an upper limb is told by where its elbow or knee bends to. Beyond the range the
-/// lower limb goes to the nearest direction that the end of the range allows, or is stretched when
-/// none is near: the projection of its direction onto the half-plane in which the hinge may bend.
+/// The axial rotation of an upper limb is determined by the bending direction of its elbow or knee.
+/// Beyond the range, the lower limb is moved to the nearest direction allowed at the end of the
+/// range, or stretched if none is near: its direction is projected onto the half-plane in which the
+/// hinge may bend.
 Vector3d NearestBend(const Eigen::Quaterniond& upper, const Excess& excess, double sign,
                      const Vector3d& lower) {
   const Vector3d along = upper * Vector3d::UnitY();
@@ -122,7 +123,7 @@ recon::Posture WithinRanges(recon::Posture posture) {
       orientation = recon::ComputeOrientations(posture);
     }
     const bool arm = range.bone == 5 || range.bone == 9;
-    if (!arm && range.bone != 13 && range.bone != 17) continue;  // no hinge tells their turn
+    if (!arm && range.bone != 13 && range.bone != 17) continue;  // no hinge determines it
     const Excess twist = TwistExcess(range, orientation);
     if (twist.angle_rad <= 0.0) continue;
     const Vector3d lower = posture.position_m[range.bone + 1] - posture.position_m[range.bone];

@@ -1,4 +1,4 @@
-// How far a point is from an object's surface.
+// Distance of a point from an object's surface.
 #include <algorithm>
 
 #include "physics/world_internal.h"
@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Below 0 inside. `point_m`: in the part's frame.
+/// Signed distance, negative inside. `point_m`: in the part's frame.
 double DistanceToShape(Shape shape, const Vector3d& size_m, Vector3d point_m) {
   if (shape == Shape::kBox) {
     const Vector3d beyond = point_m.cwiseAbs() - 0.5 * size_m;

@@ -41,7 +41,7 @@ BodyMemory Remember(dBodyID body) {
 
 void Recall(dBodyID body, const BodyMemory& memory) {
   const auto& [p, v, w, q, r] = memory;
-  // ODE's own setter normalises, which is not the same bits. The pointers are into the body.
+  // ODE's own setter normalises and changes bits. The pointers point into the body.
   std::copy(q.begin(), q.end(), const_cast<dReal*>(dBodyGetQuaternion(body)));
   std::copy(r.begin(), r.end(), const_cast<dReal*>(dBodyGetRotation(body)));
   dBodySetPosition(body, p[0], p[1], p[2]);

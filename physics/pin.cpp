@@ -13,24 +13,24 @@ namespace {
 // Constants: chosen by hand at authored motion and UI-PRMD (`ossa experiment shum-ho-2012`, parts =
 // ["filter"]).
 
-constexpr double kReach_m = 0.02;  // a pin pulls with at most stiffness x reach
+constexpr double kReach_m = 0.02;  // force limit of a pin: stiffness x reach
 constexpr double kFootStiffness_n_m = 1e6;
-/// What a pin moves: a leg's worth. Only sets the damping, 2 sqrt(k m).
+/// Effective mass at a pin: a leg. Only sets the damping, 2 sqrt(k m).
 constexpr double kPinnedMass_kg = 8.0;
 
-// When a foot stands: near the floor and slower than a foot in swing ever is (2-4 m/s, at the
-// slowest 0.3 m/s just before it lands), for long enough that noise does not decide. Kinect foot
-// joints lie up to 5 cm above the sole.
+// When a foot stands: near the floor and slower than a swinging foot (2-4 m/s, at least 0.3 m/s
+// just before landing), for long enough to be robust to noise. Kinect foot joints are up to 5 cm
+// above the sole.
 constexpr double kStandHeight_m = 0.05, kLiftHeight_m = 0.08;
 constexpr double kStillSpeed_m_s = 0.15, kStillTime_s = 0.12;
 constexpr double kSmoothing_s = 0.08;
-// When it has left: the target is this far from the pin, for a moment, or twice as far at once.
+// When it has left: the target is this far from the pin for this time, or twice as far at once.
 constexpr double kAway_m = 0.04, kAwayTime_s = 0.06;
-// A foot that came to rest a little beside its pin is pinned again where it is.
+// A foot that comes to rest slightly beside its pin is pinned again there.
 constexpr double kBeside_m = 0.012, kBesideTime_s = 0.25;
 
-/// The thresholds above at the noise that the target shows. A noisy target is averaged for longer
-/// and may stray further before it says anything; factors by a sweep on noisy mocap.
+/// The thresholds above, adapted to the target's noise. A noisy target is averaged for longer and
+/// may deviate more; factors by a sweep on noisy mocap.
 struct Thresholds {
   explicit Thresholds(double noise_m) {
     constexpr double kClean_m = 0.004;
@@ -86,8 +86,8 @@ void FootPin::Restore(OdeWorld& ode, Character& character, const std::optional<V
              : nullptr;
 }
 
-/// Standard deviation of the target's noise along an axis, from its second differences: for white
-/// noise their mean square is 6 x 3 sigma^2; a standing foot's own motion is not in them.
+/// Standard deviation of the target's noise per axis, from second differences: for white noise
+/// their mean square is 6 x 3 sigma^2; the motion of a standing foot does not contribute.
 void FootPin::EstimateNoise(const Vector3d& target_m, double dt_s) {
   constexpr double kMemory_s = 0.5, kMost_m = 0.05;
   if (memory.last_m.size() == 2) {

@@ -23,10 +23,11 @@ void Require(bool good, const std::string& name, double value, const std::string
 
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kDodgeHold_s = 0.3;
-constexpr double kDeepest_m = 0.004;  // nobody stands deeper in the floor
-/// How far a thing may fly in a substep: the margin in which its contact with a limb is seen.
+constexpr double kDeepest_m = 0.004;  // maximum penetration of the floor
+/// Maximum displacement of an object per substep: the margin in which its contact with a limb is
+/// detected.
 constexpr double kUnseen_m = kContactMargin_m;
-constexpr double kFastest_m_s = 45.0;  // more substeps for faster ones; a fast ball game's throw
+constexpr double kFastest_m_s = 45.0;  // faster objects get more substeps; a fast ball game's throw
 
 }  // namespace
 
@@ -73,7 +74,7 @@ World::Impl::Impl(const WorldOptions& world_options)
 }
 
 World::Impl::~Impl() {
-  for (auto& [id, actor] : actors) actor->hard_constraint.clear();  // before the things they pull
+  for (auto& [id, actor] : actors) actor->hard_constraint.clear();  // before the objects they pull
   for (auto& [id, thing] : things) DestroyThing(thing);
   for (const dGeomID geom : {floor_geom, limb_floor_geom, probe}) dGeomDestroy(geom);
 }
@@ -142,12 +143,12 @@ void World::Impl::Substep(double left_s, double h_s) {
       dBodyAddTorque(thing.body, t.x(), t.y(), t.z());
     }
   }
-  CarryTogether();
+  ShareCarriedWeight();
   Collide(h_s);
   SeededQuickStep(ode.world, h_s, options.seed + 0x9e3779b9U * ++steps);
   GatherImpulses(h_s);
   BreakHolds();
-  SlipHolds(h_s);
+  SlipGrips(h_s);
   dJointGroupEmpty(ode.contacts);
   RescueLost();
   for (const auto& [id, actor] : actors) {
@@ -157,9 +158,10 @@ void World::Impl::Substep(double left_s, double h_s) {
   }
 }
 
-/// Bounded forces keep motion finite; an absurd impulse may not. A character whose motion is lost
-/// stands up at its target with what it holds, a thing rests where it was before the step. At once:
-/// ODE ends the process when it is to look for contacts of what is nowhere.
+/// Bounded forces keep motion finite, but an extreme impulse may not. A character with non-finite
+/// motion is placed at its target with the objects it holds; an object is placed at rest where it
+/// was before the step. Immediately, because ODE terminates the process when it checks contacts of
+/// non-finite positions.
 void World::Impl::RescueLost() {
   for (const auto& [id, actor] : actors) {
     if (actor->character.IsFinite()) continue;
@@ -190,7 +192,7 @@ double World::Impl::FastestThing_m_s() const {
   return fastest_m_s;
 }
 
-/// Kinematic things set out so as to arrive after dt.
+/// Sets velocities of kinematic objects so that they arrive after dt.
 void World::Impl::MoveKinematic(double dt_s) {
   for (auto& [id, thing] : things) {
     thing.before = PoseOf(thing.body);
@@ -203,7 +205,7 @@ void World::Impl::MoveKinematic(double dt_s) {
   }
 }
 
-/// What lasted for the step is over, and what happened in it is told.
+/// Clears per-step state and reports contacts.
 void World::Impl::FinishStep(const std::vector<Contact>& before) {
   for (auto& [id, actor] : actors) actor->pulls.clear();
   for (auto& [id, thing] : things) {

@@ -1,4 +1,4 @@
-// What a world does with its characters.
+// The characters of a world.
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -11,8 +11,8 @@ namespace ossa::physics {
 using Eigen::Vector3d;
 
 void World::Impl::SetIterations() {
-  // By hand: servo motors have twice the rows; fewer iterations keep them below 0.6 ms a frame and
-  // their pinned feet still within 5 mm (3.5 mm at 30, 4.7 at 26, 5.2 at 24).
+  // By hand: servo motors have twice as many rows; fewer iterations keep them below 0.6 ms per
+  // frame and their pinned feet within 5 mm (3.5 mm at 30, 4.7 at 26, 5.2 at 24).
   constexpr int kIterations = 30, kMotorIterations = 26;
   const bool motors = std::any_of(actors.begin(), actors.end(), [](const auto& actor) {
     return actor.second->options.control == Control::kMotor;
@@ -31,7 +31,7 @@ Actor& World::Impl::MakeActor(int character, const recon::BoneLengths& lengths,
 int World::AddCharacter(const recon::BoneLengths& lengths, const recon::Posture& start,
                         const CharacterOptions& options) {
   Impl& w = *impl_;
-  // As many substeps as there are in a frame of 1/30 s.
+  // The substeps of a frame of 1/30 s.
   options.Check(1.0 / 30.0 / w.options.substeps);
   Actor& actor = w.MakeActor(w.next_actor, lengths, options);
   actor.first = start;
@@ -40,7 +40,7 @@ int World::AddCharacter(const recon::BoneLengths& lengths, const recon::Posture&
 }
 
 void World::RemoveCharacter(int character) {
-  impl_->ActorOf(character);  // or not there
+  impl_->ActorOf(character);  // throws if there is none
   impl_->ReleaseAllOf(character);
   impl_->actors.erase(character);
   impl_->SetIterations();
@@ -81,10 +81,10 @@ void World::Impl::Place(Actor& actor, const recon::Posture& posture) {
       return grip.hand != nullptr && actor.character.Owns(grip.hand);
     });
     if (own == thing.grips.end()) continue;
-    // As it is held now; where nothing is known of now, as it was when it was taken.
+    // As currently held; if the current state is not finite, as it was when taken.
     const Eigen::Isometry3d now = PoseOf(own->hand).inverse() * PoseOf(thing.body);
     carried.emplace_back(&thing, now.matrix().allFinite() ? now : own->in_hand);
-    // It can go along in one hand only: others are elsewhere now.
+    // It can follow only one hand: the others are elsewhere now.
     const dJointID kept = own->joint;
     Release(thing, [kept](const Grip& grip) { return grip.joint != kept; });
   }

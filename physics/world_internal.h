@@ -7,28 +7,28 @@
 
 namespace ossa::physics {
 
-/// A virtual joint between a thing and a hand, or a point of the world.
+/// A joint between an object and a hand, or a fixed point of the world.
 struct Grip {
   dJointID joint = nullptr;
-  dJointID turning = nullptr;  // what keeps one that may turn from it
+  dJointID turning = nullptr;  // rotational friction, if it may rotate
   uint64_t made = 0;           // OdeWorld::made
-  int character = -1;          // none: it hangs
-  size_t bone = 0;             // that holds it
+  int character = -1;          // -1: attached to the world
+  size_t bone = 0;             // bone that holds it
   bool rigid = false;
   double strength_n = 0.0;
-  double torque_nm = 0.0;   // of a rigid one: beyond, it turns
-  Eigen::Vector3d point_m;  // about which it turns, when it was taken
-  /// Of one that slips: where it is on the thing now, in the body's frame, and how far off the
-  /// surface it was when it was taken.
+  double torque_nm = 0.0;   // of a rigid grip: slips beyond
+  Eigen::Vector3d point_m;  // pivot, when it was taken
+  /// For a slipping grip: its current point on the object, in the body's frame, and its distance
+  /// from the surface when it was taken.
   std::optional<Eigen::Vector3d> on_thing_m{};
   double taken_off_m = 0.0;
-  BodyMemory hand_then, thing_then;            // when it was taken
-  dBodyID hand = nullptr, beside = nullptr;    // the bone that holds it, and the one before
-  Eigen::Isometry3d in_hand;                   // bone from object, when it was taken
-  std::unique_ptr<dJointFeedback> feedback{};  // of one that can break
+  BodyMemory hand_then, thing_then;            // state when it was taken
+  dBodyID hand = nullptr, beside = nullptr;    // the bone that holds it, and its parent
+  Eigen::Isometry3d in_hand;                   // bone from object, when taken
+  std::unique_ptr<dJointFeedback> feedback{};  // for grips that can break
 };
 
-/// A force that lasts for a Step.
+/// A force applied during one Step.
 struct Load {
   Eigen::Vector3d force_n, torque_nm;
   Eigen::Vector3d at_m;  // in the body's frame
@@ -40,26 +40,26 @@ struct Thing {
   uint64_t made = 0;  // OdeWorld::made
   dBodyID body = nullptr;
   std::vector<dGeomID> geoms;
-  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  // centre of mass in the object's frame
-  std::vector<Grip> grips{};  // of all that hold it, in the order in which they took it
-  Eigen::Isometry3d before = Eigen::Isometry3d::Identity();  // pose when the present Step began
-  std::vector<Load> loads{};                                 // of the next Step
-  std::optional<Eigen::Isometry3d> goal{};  // of a kinematic one, at the end of the next Step
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  // centre of mass, object frame
+  std::vector<Grip> grips{};                           // all grips on it, in order of creation
+  Eigen::Isometry3d before = Eigen::Isometry3d::Identity();  // pose when the Step began
+  std::vector<Load> loads{};                                 // for the next Step
+  std::optional<Eigen::Isometry3d> goal{};  // target of a kinematic object for the next Step
 
   bool IsMoved() const { return info.kind == BodyKind::kDynamic; }
 };
 
-/// Characters carry the tag index + 1 in their geoms, things -(index + 1), the floor 0.
+/// Geoms of characters have the tag index + 1, of objects -(index + 1), of the floor 0.
 inline int TagOf(dGeomID geom) {
   return static_cast<int>(reinterpret_cast<intptr_t>(dGeomGetData(geom)));
 }
 Party PartyOf(dGeomID geom);
 
-/// From a point of the object's frame to its surface, metres; below 0 inside.
+/// Signed distance from a point in the object's frame to its surface, metres; negative inside.
 double DistanceToObject(const ObjectOptions& object, const Eigen::Vector3d& point_m);
 
-/// Limbs see the floor coming from this much further away than other things: a plane costs nothing,
-/// and a foot that jumps to a new target comes down at 15 m/s.
+/// Distance at which limbs detect the floor, larger than for other objects: a plane is cheap, and a
+/// foot whose target jumps comes down at 15 m/s.
 // Derived: 15 m/s for a substep of 1/300 s is 5 cm; twice that
 constexpr double kFloorLook_m = 0.1;
 
@@ -68,14 +68,14 @@ struct World::Impl {
   ~Impl();
 
   class Restorer;  // world_snapshot.cpp
-  /// How two things meet.
+  /// Contact properties of two geoms.
   struct Surface {
     SoftConstraint soft{};
     double friction = 0.0, bounce = 0.0;
-    double margin_m = 0.0;  // by how much their geoms are larger than they
-    bool self = false;      // limbs of one character
+    double margin_m = 0.0;  // margin of their geoms
+    bool self = false;      // both are limbs of one character
   };
-  /// A contact joint of the present substep.
+  /// A contact joint of the current substep.
   struct Pressing {
     Party a, b;
     Eigen::Vector3d position_m, normal;
@@ -84,18 +84,18 @@ struct World::Impl {
   };
 
   Actor& ActorOf(int character) { return *actors.at(character); }
-  /// Stands a character still in a posture, with what it holds.
+  /// Places a character at rest in a posture, with the objects it holds.
   void Place(Actor& actor, const recon::Posture& posture);
-  /// Of the constraint solver, for the characters that are there.
+  /// Sets the solver iterations for the current characters.
   void SetIterations();
   Actor& MakeActor(int character, const recon::BoneLengths& lengths,
                    const CharacterOptions& character_options);
   Thing& MakeThing(int object, const ObjectOptions& object_options);
   void DestroyThing(Thing& thing);
-  /// Joins hand and thing as they are, `grip` saying how.
+  /// Joins hand and object in their current poses, as described by `grip`.
   void Take(Thing& thing, Grip grip);
   void Connect(const Thing& thing, Grip& grip);
-  /// Opens those of its grips that `opens` names.
+  /// Releases the grips selected by `opens`.
   static void Release(Thing& thing, const std::function<bool(const Grip&)>& opens);
   static void Release(Thing& thing);
   void ReleaseAllOf(int character);
@@ -103,8 +103,8 @@ struct World::Impl {
   void Substep(double left_s, double h_s);
   void RescueLost();
   void BreakHolds();
-  void CarryTogether();
-  void SlipHolds(double h_s);
+  void ShareCarriedWeight();
+  void SlipGrips(double h_s);
   void WatchThreats(double dt_s);
   void WatchForThings(Actor& actor) const;
   double FastestThing_m_s() const;
@@ -130,18 +130,18 @@ struct World::Impl {
   OdeWorld ode;
   dGeomID floor_geom = dCreatePlane(nullptr, 0, 1, 0, 0);
   dGeomID limb_floor_geom = dCreatePlane(nullptr, 0, 1, 0, 0);  // kFloorLook_m higher
-  dGeomID probe = dCreateSphere(nullptr, 0.1);                  // the end of a capsule
+  dGeomID probe = dCreateSphere(nullptr, 0.1);                  // stands for the end of a capsule
   std::optional<Eigen::Vector4d> floor;
   Eigen::Vector3d gravity_m_s2;
-  // Pointers: joints and bodies hold on to their actors' addresses.
+  // Pointers, because joints and bodies store the addresses of their actors.
   std::map<int, std::unique_ptr<Actor>> actors;
   std::map<int, Thing> things;
   int next_actor = 0, next_thing = 0;
-  std::vector<std::pair<dGeomID, dGeomID>> near;  // pairs of the present substep
+  std::vector<std::pair<dGeomID, dGeomID>> near;  // colliding pairs of the current substep
   std::deque<Pressing> pressing;
-  std::map<std::array<int, 4>, Contact> touching;  // of the present Step, by tags and bones
+  std::map<std::array<int, 4>, Contact> touching;  // in the current Step, by tags and bones
   ContactSummary contacts;
-  double step_s = 0.0;  // of the present substep
+  double step_s = 0.0;  // duration of the current substep
   uint64_t steps = 0;
 };
 

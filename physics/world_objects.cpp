@@ -1,4 +1,4 @@
-// What a world does with its objects.
+// The objects of a world.
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -47,7 +47,7 @@ void RequireFinite(const char* what, const Vector3d& a, const Vector3d& b) {
   throw std::invalid_argument(std::string(what) + ": numbers must be finite");
 }
 
-/// The pose of a part in the object's frame, as ODE's geoms lie: capsules along z, ours along y.
+/// A part's pose in the object's frame, in ODE's convention: capsules along z, ours along y.
 struct PlacedPart {
   Shape shape;
   Vector3d size_m;
@@ -72,7 +72,7 @@ void Turn(const Isometry3d& pose, dMatrix3 rotation) {
   dQtoR(quaternion, rotation);
 }
 
-/// Mass of all parts, of one density, about their centre, which it returns.
+/// Sums the masses of all parts, of one density, about their centre, which is returned.
 Vector3d SumMasses(const std::vector<PlacedPart>& parts, double mass_kg, dMass& sum) {
   double volume = 0.0;
   for (const PlacedPart& part : parts) volume += VolumeOf(part.shape, part.size_m);
@@ -93,7 +93,7 @@ Vector3d SumMasses(const std::vector<PlacedPart>& parts, double mass_kg, dMass& 
   return middle;
 }
 
-/// One shape needs no sums, which would round its inertia.
+/// A single shape is not summed, which would round its inertia.
 Vector3d SetMassOf(dBodyID body, const ObjectOptions& options,
                    const std::vector<PlacedPart>& parts) {
   dMass mass;
@@ -117,7 +117,7 @@ Thing& World::Impl::MakeThing(int object, const ObjectOptions& object_options) {
   thing.body = dBodyCreate(ode.world);
   thing.middle_m = SetMassOf(thing.body, object_options, parts);
   dBodySetMaxAngularSpeed(thing.body, 100.0);
-  dBodySetDamping(thing.body, 0.0005, 0.005);  // what air and rolling take away
+  dBodySetDamping(thing.body, 0.0005, 0.005);  // air and rolling resistance
   if (!thing.IsMoved()) dBodySetKinematic(thing.body);
   for (const PlacedPart& part : parts) {
     const dGeomID geom = MakeGeom(ode.space, part.shape, part.size_m);
@@ -150,7 +150,7 @@ int World::AddObject(const ObjectOptions& options) {
 
 void World::RemoveObject(int object) {
   Impl& w = *impl_;
-  w.things.at(object);  // or not there
+  w.things.at(object);  // throws if there is none
   for (auto& [id, actor] : w.actors) {
     std::erase_if(actor->soft_constraint, [&](const auto& c) { return c.second.object == object; });
     std::erase_if(actor->hard_constraint,
@@ -200,7 +200,8 @@ void World::ApplyForceToObject(int object, const Vector3d& force_n, const Vector
   RequireFinite("ApplyForceToObject", force_n + torque_nm, at_m);
   Thing& thing = impl_->things.at(object);
   if (!thing.IsMoved()) return;
-  // The force keeps its direction in the world, the point moves with the body: see Substep.
+  // The force keeps its direction in the world; its point of application moves with the body, see
+  // Substep.
   thing.loads.push_back({force_n, torque_nm, physics::PoseOf(thing.body).inverse() * at_m});
 }
 

@@ -1,5 +1,5 @@
-// Save and Restore. A snapshot is a description: Restore makes a new world from it, everything in
-// the order in which it was made, because the solver's rows keep that order.
+// Save and Restore. A snapshot describes a world; Restore builds a new one from it, creating
+// everything in the original order, because the solver's rows depend on it.
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
@@ -12,7 +12,7 @@ namespace {
 struct SavedPin {
   size_t joint = 0;
   uint64_t made = 0;
-  Anchor anchor;  // its body is looked up by its object
+  Anchor anchor;  // body determined by its object
 };
 
 struct SavedActor {
@@ -36,7 +36,7 @@ struct SavedThing {
   BodyMemory body;
   std::vector<Load> loads;
   std::optional<Eigen::Isometry3d> goal;
-  std::vector<Grip> grips;  // without joints
+  std::vector<Grip> grips;  // without their joints
 };
 
 Grip Description(const Grip& grip) {
@@ -117,7 +117,7 @@ WorldSnapshot World::Save() const {
   return snapshot;
 }
 
-/// Makes all of a snapshot in a world that is empty.
+/// Creates the content of a snapshot in an empty world.
 class World::Impl::Restorer {
  public:
   Restorer(Impl& world, const WorldSnapshot::Data& data) : w_(world), data_(data) {}
@@ -176,7 +176,7 @@ class World::Impl::Restorer {
     });
     for (const Grip& grip : saved.grips) {
       makings_.emplace_back(grip.made, [this, &saved, &grip] {
-        // A grip keeps how hand and thing lay when it closed.
+        // A grip keeps the relative pose at which it closed.
         Thing& thing = w_.things.at(saved.id);
         if (grip.character >= 0) {
           Recall(w_.ActorOf(grip.character).character.body(grip.bone), grip.hand_then);
@@ -202,8 +202,7 @@ class World::Impl::Restorer {
 
   Impl& w_;
   const WorldSnapshot::Data& data_;
-  std::vector<std::pair<uint64_t, std::function<void()>>>
-      makings_;  // with their place in the order
+  std::vector<std::pair<uint64_t, std::function<void()>>> makings_;  // with their creation order
 };
 
 void World::Restore(const WorldSnapshot& snapshot) {

@@ -85,7 +85,7 @@ TEST(CharacterFilter, GivesTheSameBytesEachRun) {
   EXPECT_EQ(0, std::memcmp(a.data(), b.data(), a.size() * sizeof(double)));
 }
 
-/// Targets that no sensor should give, and every sensor does.
+/// Bad targets that sensors do give.
 struct BadTarget {
   const char* name;
   Posture (*make)(int frame);

@@ -87,8 +87,8 @@ TEST_P(FastBall, DoesNotEnterTheChest) {
   }
 }
 
-// Metres a second. At ten substeps a frame the faster ones would fly past the margin in which a
-// contact is seen.
+// Metres per second. At ten substeps per frame the faster balls would skip the margin in which
+// contacts are detected.
 INSTANTIATE_TEST_SUITE_P(Speeds, FastBall, testing::Values(7.0, 11.0, 20.0));
 
 TEST(Contacts, TwoPeopleCannotStandInOnePlace) {
@@ -133,7 +133,8 @@ TEST(SelfCollision, KeepsAForearmOutOfTheChest) {
   EXPECT_GT(hand_depth(true), 0.08);
 }
 
-/// The deepest overlap of own limbs while the target goes from standing to `goal` within a second.
+/// The deepest overlap of a character's own limbs while the target moves from standing to `goal`
+/// within a second.
 double DeepestOnTheWayTo(const Posture& goal) {
   Scene scene;
   double deepest_m = 0.0;
@@ -280,7 +281,7 @@ TEST(FootPin, IsNotShakenOffByThreeCentimetresOfNoise) {
   EXPECT_FALSE(scene.world.StateOf(scene.person).left_foot_pinned);
 }
 
-/// Throws a ball that passes the head at a distance; was the head, was a forearm hit?
+/// Throws a ball past the head at a given distance; records hits of head and forearms.
 struct Struck {
   bool head = false, arm = false, dodged = false;
 };

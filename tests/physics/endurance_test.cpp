@@ -1,4 +1,4 @@
-// The filter as it is used: delay, threads, and a long time of what sensors do.
+// The filter in use: latency, threads, and long runs with sensor errors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -67,7 +67,7 @@ TEST(Threads, DoNotDisturbEachOther) {
   for (const auto& result : together) EXPECT_EQ(result, alone);  // every bit
 }
 
-/// A frame of a bad sensor: joints missing, joints thrown about, everything gone or elsewhere.
+/// A frame of a bad sensor: joints missing or displaced, or everything missing or elsewhere.
 Posture Spoiled(Posture target, std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto anywhere = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };

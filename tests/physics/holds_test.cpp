@@ -1,4 +1,4 @@
-// Holds that turn and slip: hands that carry a thing together do not work against each other.
+// Grips that rotate and slip: hands that carry an object together do not work against each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ ObjectOptions Box(const Vector3d& position_m) {
   return box;
 }
 
-/// How far a box of 2 kg turns in a hand that holds it at its end, 20 cm beside its middle.
+/// Rotation of a box of 2 kg in a hand that holds it at its end, 20 cm from its middle.
 double TurnInHand_rad(double torque_nm) {
   World world;
   world.SetFloor(Ground());
@@ -53,7 +53,7 @@ TEST(Hold, TurnsInTheHandWhereItWouldHaveToTurnHarderThanItCan) {
   EXPECT_GT(TurnInHand_rad(0.5), 0.5);
 }
 
-/// Two people side by side, the inner arms of whom are put nearer to each other, or apart.
+/// Two people side by side, whose inner arms are moved together or apart.
 struct Pair {
   World world;
   recon::Posture first = StandingPerson(), second = Moved(first, {1.1, 0, 0});
@@ -81,8 +81,7 @@ struct Pair {
   Vector3d Hand() const { return world.StateOf(a).posture[Joint::kHandLeft]; }
 };
 
-/// How far a hand stays from where it would be without the box that both hold, and by how much the
-/// box is lower than it was.
+/// Distance of a hand from its position without the box that both hold, and how far the box sinks.
 std::pair<double, double> KeptFromWhereItIsWanted_m(double torque_nm) {
   Pair free, holding;
   const Vector3d middle =

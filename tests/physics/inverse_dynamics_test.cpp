@@ -24,7 +24,7 @@ constexpr double kGravity_m_s2 = 9.81, kMass_kg = 70.0;
 constexpr double kFrame_s = 0.005;  // short: what is left over is the formula's, not the parabola's
 constexpr size_t kMiddle = 100;
 
-/// The moment in the middle of a motion, by frames of 5 ms and a window of 15.
+/// The dynamics in the middle of a motion, from frames of 5 ms and a window of 15.
 Dynamics MiddleOf(const std::function<Posture(double)>& posture_at) {
   std::vector<BodyPose> motion;
   for (size_t k = 0; k <= 2 * kMiddle; ++k) {
@@ -49,7 +49,7 @@ Posture WithArm(double angle_rad) {
   return posture;
 }
 
-/// Of the straight arm about the shoulder: mass times distance, and moment of inertia across.
+/// The straight arm about the shoulder: mass times distance, and transverse moment of inertia.
 struct Arm {
   double moment_kgm = 0.0, inertia_kgm2 = 0.0;
 };

@@ -1,4 +1,4 @@
-// What holds a character together and within what people can do.
+// Joints, joint limits and orientations of a character.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ class Contortions : public testing::TestWithParam<Contortion> {
   double AngleWith(bool limits) const {
     const Contortion& c = GetParam();
     Posture target = StandingPerson();
-    // What hangs on the bone goes along.
+    // Everything attached to the bone moves with it.
     const Vector3d bone = target.position_m[c.bone] - target.position_m[c.parent];
     const Vector3d by = bone.norm() * c.direction.normalized() - bone;
     for (size_t j = c.bone; j < recon::kJointCount; ++j) {

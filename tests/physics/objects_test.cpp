@@ -1,5 +1,5 @@
-// Objects as the user of a physics engine expects them: kinds, forces, parts, groups, holds that
-// break, contacts that tell.
+// Objects with the usual features of a physics engine: kinds, forces, parts, groups, breakable
+// grips, contact reports.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -56,7 +56,7 @@ inline recon::Posture DancingPerson(double time_s) {
 
 constexpr double kFrame_s = 1.0 / 30.0;
 
-/// Of the standing person.
+/// Bone lengths of the standing person.
 inline recon::BoneLengths Lengths() { return recon::MeasureBoneLengths(StandingPerson()); }
 
 /// Largest relative error of a bone's length against the standing person's.
@@ -69,7 +69,7 @@ inline double LargestLengthError(const recon::Posture& posture) {
   return largest;
 }
 
-/// White noise on every joint, of so many metres along each axis.
+/// White noise on every joint, with this standard deviation per axis.
 inline recon::Posture Shaken(recon::Posture posture, double sigma_m, std::mt19937_64& random) {
   std::normal_distribution<double> normal(0.0, sigma_m);
   for (auto& p : posture.position_m) {

@@ -1,4 +1,4 @@
-// What World::Place and the rescue leave consistent: held things, constraints, velocities, turns.
+// Consistency after World::Place and rescues: held objects, constraints, velocities, rotations.
 #include <gtest/gtest.h>
 
 #include <cmath>
