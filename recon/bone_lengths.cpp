@@ -8,11 +8,11 @@
 namespace ossa::recon {
 namespace {
 
-/// Moves a running median by one measurement, the n-th. The first two make a mean: a step of a
-/// share of the length would be a long way from where it begins.
+/// Updates a running median with the n-th measurement. The first two are averaged: they may lie
+/// farther from the length than a step of a few per cent.
 double MoveMedian(double median_m, double length_m, int n) {
   constexpr double kFirstStep =
-      0.5;  // of the length, divided by n; by hand, with the memory of 20 s
+      0.5;  // step, share of the length over n; by hand, with the memory of 20 s
   if (n <= 2) return median_m + (length_m - median_m) / n;
   return median_m * (1.0 + std::copysign(kFirstStep / n, length_m - median_m));
 }

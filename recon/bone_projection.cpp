@@ -14,7 +14,7 @@ using BoneVector = Eigen::Matrix<double, kBones, 1>;
 constexpr Eigen::Index RowOf(size_t bone) { return static_cast<Eigen::Index>(bone - 1); }
 
 struct Constraints {
-  JointArray<Eigen::Vector3d> direction;  // of the bone that ends in the joint
+  JointArray<Eigen::Vector3d> direction;  // unit vector of the bone that ends in the joint
   BoneVector too_long_m;                  // entry i - 1: bone i
 };
 
@@ -29,7 +29,7 @@ Constraints LinearisedConstraints(const Posture& p, const BoneLengths& lengths_m
   return c;
 }
 
-/// J W^-1 J': two bones are coupled by the joints they share.
+/// J W^-1 J'. Bones that share a joint are coupled.
 BoneMatrix Coupling(const Constraints& c, const JointWeights& give) {
   BoneMatrix a = BoneMatrix::Zero();
   for (size_t bone = 1; bone < kJointCount; ++bone) {

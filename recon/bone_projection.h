@@ -3,10 +3,11 @@
 
 namespace ossa::recon {
 
-/// The posture with exactly these bone lengths that lies near the given one: joints move by a least
-/// weighted sum of squares (Gauss-Newton on the 19 constraints with Lagrange's multipliers), those
-/// with more weight less. Weights must be positive. What a few steps leave open, with bones bent
-/// out of all shape, eq. 4 of Shum & Ho 2012 closes.
+/// The posture with exactly these bone lengths that is nearest to the given one: minimises the
+/// weighted sum of squared joint displacements under 19 length constraints (Gauss-Newton with
+/// Lagrange multipliers). Weights must be positive; joints of larger weight move less. If a few
+/// steps do not converge, because bones are strongly distorted, eq. 4 of Shum & Ho 2012 enforces
+/// the rest.
 Posture WithBoneLengths(const Posture& posture, const BoneLengths& lengths_m,
                         const JointWeights& weights);
 

@@ -8,7 +8,7 @@
 namespace ossa::recon {
 namespace {
 
-// Joints of the standard body at rest (recon/body/standard_body.h), metres; left half and midline.
+// Joints of the standard body at rest (recon/body/standard_body.h), metres; left side and midline.
 constexpr double kMiddle_m[4][3] = {
     {0.0, 0.9136, -0.0062}, {0.0, 1.0948, -0.0084}, {0.0, 1.4137, 0.0051}, {0.0, 1.5886, 0.0409}};
 constexpr double kLeftArm_m[4][3] = {{0.1700, 1.3199, 0.0193},
@@ -20,7 +20,7 @@ constexpr double kLeftLeg_m[4][3] = {{0.1014, 0.8657, 0.0049},
                                      {0.1806, 0.0692, 0.0227},
                                      {0.1945, 0.0245, 0.1535}};
 
-// Heights of the smallest and tallest people served, over the standard body's 1.66 m.
+// Heights of the smallest and tallest supported people, relative to the standard body's 1.66 m.
 constexpr double kSmallestScale = 0.9 / 1.66;
 constexpr double kLargestScale = 2.2 / 1.66;
 
@@ -131,7 +131,7 @@ double EstimateBodyScale(const BoneLengths& lengths_m, const JointWeights& weigh
   double total = 0.0;
   for (size_t i = 1; i < kJointCount; ++i) {
     const double weight = std::min(weights[i], weights[ParentOf(i)]);
-    // Longer bones say more of a body's size than short ones, whose ends' errors weigh as much.
+    // Longer bones are weighted more: errors of the ends matter less.
     const double trust = weight * StandardBoneLengths()[i];
     if (!(trust > 0.0) || !std::isfinite(lengths_m[i]) || lengths_m[i] < 1e-3) continue;
     ratios.emplace_back(lengths_m[i] / StandardBoneLengths()[i], trust);

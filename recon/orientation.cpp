@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kTinyLength_m = 1e-6;
 
-/// Frame whose y axis is `y` and whose x axis is as near to `x_hint` as that allows.
+/// Frame with y axis `y` and its x axis as close to `x_hint` as possible.
 Quaterniond FrameFrom(const Vector3d& y, const Vector3d& x_hint) {
   const Vector3d axis = y.normalized();
   Vector3d x = x_hint - axis * axis.dot(x_hint);
@@ -43,7 +43,8 @@ JointOrientations MakeRest() {
   return rest;
 }
 
-/// Which bone bends an upper limb's hinge, and with which sign its axis is the bone's x.
+/// The bone that determines an upper limb's hinge axis, and the sign of that axis along the bone's
+/// x.
 struct Hinge {
   Joint upper, lower;
   double sign;
@@ -75,7 +76,7 @@ class Solver {
     const Vector3d up = Bone(Index(Joint::kSpine));
     const Vector3d left = Across(Joint::kHipRight, Joint::kHipLeft);
     if (Usable(up) && Usable(left)) {
-      // The hips' line is the firmer of the two: it keeps its direction and `up` gives way.
+      // The line of the hips is more reliable: it keeps its direction and `up` is adjusted.
       const Quaterniond by_up = FrameFrom(up, left);
       const Vector3d x = left.normalized();
       Vector3d y = up - x * x.dot(up);

@@ -21,7 +21,7 @@ double TiltFromUp(const Posture& posture, Joint from, Joint to) {
 bool IsReferencePosture(const Posture& p, const ReferenceLengthOptions& options) {
   constexpr double kLevel_deg = 90.0;  // definition
   const double upright_deg = options.upright_deg, arms_deg = options.level_arms_deg;
-  // Comparisons this way round: what is not finite is not upright.
+  // Negated comparisons, so that NaN is not upright.
   if (!(TiltFromUp(p, Joint::kHipCenter, Joint::kShoulderCenter) <= upright_deg)) return false;
   for (const auto& [hip, shoulder] : {std::pair{Joint::kHipLeft, Joint::kShoulderLeft},
                                       std::pair{Joint::kHipRight, Joint::kShoulderRight}}) {
@@ -40,7 +40,7 @@ bool IsReferencePosture(const Posture& p, const ReferenceLengthOptions& options)
 
 void ReferenceLengths::Observe(const Posture& in_camera, const JointWeights& trust) {
   const BoneLengths lengths = MeasureBoneLengths(in_camera);
-  // "All body parts tracked" are all those that this sensor has: UI-PRMD's Kinect has no hands.
+  // "All body parts tracked" means all that this sensor provides: UI-PRMD's Kinect has no hands.
   int known_joints = 0;
   bool all = true;
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -56,10 +56,10 @@ void ReferenceLengths::Observe(const Posture& in_camera, const JointWeights& tru
 }
 
 void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const JointWeights& trust) {
-  // Departure: the paper takes the lengths of every reference posture as they are. A length that no
-  // body of this size has is an error of the frame, not a feature of the person; so is one far from
-  // what an earlier reference posture showed, while the size stayed the same: of that person's
-  // postures the mean of some ten holds.
+  // Departure: the paper uses the lengths of every reference posture. A length that is implausible
+  // for a body of this size is an error of the frame, not a property of the person; so is one far
+  // from an earlier reference posture's while the size is unchanged. Lengths are averaged over some
+  // ten reference postures of a person.
   const double scale = EstimateBodyScale(lengths, trust);
   const bool same_size = from_posture_ && std::abs(scale / scale_ - 1.0) < options_.other_size;
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -77,12 +77,11 @@ void ReferenceLengths::FromReferencePosture(const BoneLengths& lengths, const Jo
   known_ = from_posture_ = true;
 }
 
-/// Departure: before any reference posture, of which the paper says nothing: the standard body at
-/// the person's size, but the midline, hands and feet as the mean of what was seen so far. Sensors
-/// place the spine differently (a Kinect v2's lies 10 cm higher, which would make the hips' centre
-/// half unreliable for ever) but seldom wrongly, and each has its own idea of where a hand or a
-/// foot is (a Kinect v2's hand lies twice as far from the wrist); the other joints the other way
-/// round.
+/// Departure: before any reference posture, which the paper does not consider: the standard body at
+/// the person's size, except that midline, hands and feet are the mean of the observations so far.
+/// Sensors place the spine differently but consistently (a Kinect v2's is 10 cm higher, which would
+/// make HipCenter half unreliable forever), and each defines hands and feet in its own way (a
+/// Kinect v2's hand is twice as far from the wrist); for the other joints the reverse holds.
 void ReferenceLengths::FromAnyPosture(const BoneLengths& lengths, const JointWeights& trust) {
   const auto seen =
       std::count_if(trust.begin(), trust.end(), [this](double t) { return t > options_.present; });
@@ -152,8 +151,8 @@ void ReliabilityEstimator::ForgetMotion() {
 }
 
 // Eqs. 1-4. Departure: eq. 3 prints the cosine where the text and the limits in degrees of eq. 4
-// mean the angle itself; the angle it is. The sums of eqs. 4 and 8 are over f_b and f_total terms:
-// their printed limits, from 0 to f_b, would make four angles of which the mean is a third.
+// mean the angle; the angle is used. The sums of eqs. 4 and 8 are over f_b and f_total terms: their
+// printed limits, from 0 to f_b, would average four angles with a divisor of three.
 JointWeights ReliabilityEstimator::Behaviour() const {
   JointWeights rb;
   rb.fill(1.0);
@@ -176,7 +175,7 @@ JointWeights ReliabilityEstimator::Behaviour() const {
   return rb;
 }
 
-// Eqs. 5-6, over the bones whose both ends are there.
+// Eqs. 5-6, over bones with both ends present.
 JointWeights ReliabilityEstimator::Kinematics(const Posture& posture,
                                               const JointWeights& seen) const {
   JointWeights rk;
@@ -223,7 +222,7 @@ JointWeights SurfaceReliability(const Posture& in_camera, const depth::DepthFram
     const Eigen::Vector3d& p = in_camera.position_m[i];
     if (!p.allFinite() || p.z() < 0.1) continue;
     const Eigen::Vector2d at = depth::Project(depth.camera, p);
-    // The joint's own breadth in the image: a hand may lie a few pixels beside its blob.
+    // The joint's radius in the image: a hand may be a few pixels beside its blob.
     const double radius = std::clamp(0.04 * depth.camera.fx / p.z(), 1.0, 12.0);
     if (!(std::abs(at.x()) < 1e5 && std::abs(at.y()) < 1e5)) continue;
     double nearest_gap_m = 1e9;  // surface minus joint along z, the one that fits the joint best

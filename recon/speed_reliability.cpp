@@ -7,7 +7,7 @@
 
 namespace ossa::recon {
 
-/// Of the joints, the median for each axis: a few that jump do not move it.
+/// Motion of the whole body: the median over the joints per axis, robust to a few jumps.
 Eigen::Vector3d SpeedTerm::BodyMoved(const Posture& posture, const JointWeights& seen) const {
   Eigen::Vector3d body = Eigen::Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
@@ -28,7 +28,7 @@ JointWeights SpeedTerm::Step(const Posture& posture, const JointWeights& seen, d
   speed.fill(1.0);
   const Eigen::Vector3d body = BodyMoved(posture, seen);
   const Posture before = believed_;
-  JointArray<bool> believed{};  // believed now and before
+  JointArray<bool> believed{};  // reliable now and before
   for (size_t i = 0; i < kJointCount; ++i) {
     if (seen[i] == 0.0) {
       unbelieved_s_[i] = -1.0;

@@ -5,11 +5,11 @@
 
 namespace ossa::recon {
 
-/// Where the bone that ends in the joint points in a T-pose facing +z: the rest pose of the files
-/// that are written, and of a character that waits for its first target. A unit vector.
+/// Direction of the bone that ends in the joint, in a T-pose facing +z: the rest pose of exported
+/// files, and of a character before its first target. A unit vector.
 Eigen::Vector3d TPoseDirection(size_t joint);
 
-/// A T-pose of bones of these lengths, metres, the centre of the hips at the origin.
+/// A T-pose with these bone lengths, metres, HipCenter at the origin.
 Posture BuildTPose(const BoneLengths& lengths_m);
 
 }  // namespace ossa::recon

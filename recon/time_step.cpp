@@ -18,7 +18,7 @@ double MedianStep_s(const SkeletonSequence& sequence) {
 }
 
 double BridgedGap_s(const SkeletonSequence& sequence, double least_s) {
-  constexpr double kSteps = 1.5;  // frames; by hand: one, and times that are not even
+  constexpr double kSteps = 1.5;  // frames; by hand: one, plus jitter
   return std::max(least_s, kSteps * MedianStep_s(sequence));
 }
 

@@ -3,12 +3,12 @@
 
 namespace ossa::recon {
 
-/// Median time between the frames of a recording, seconds; 0 of fewer than two frames. Loggers that
-/// ask faster than sensors answer say each time twice: steps of no time are not counted.
+/// Median time between the frames of a recording, seconds; 0 for fewer than two frames. Steps of
+/// zero are ignored: loggers that poll faster than sensors deliver repeat times.
 double MedianStep_s(const SkeletonSequence& sequence);
 
-/// Gaps between frames that are bridged on the line between: `least_s`, or a frame and a half of a
-/// recording that is slower.
+/// Longest gap between frames to interpolate over: `least_s`, or a frame and a half of a slower
+/// recording.
 double BridgedGap_s(const SkeletonSequence& sequence, double least_s);
 
 }  // namespace ossa::recon

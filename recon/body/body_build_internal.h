@@ -19,7 +19,7 @@ struct BodyModelBuilder {
                             BodyModel* model);
 };
 
-/// What the labelling needs of the neutral mesh, decimetres.
+/// What part labelling reads of one triangle or vertex of the neutral mesh, decimetres.
 struct PartLabelInput {
   Eigen::Vector3f centroid_dm;
   std::array<float, kRigBoneCount> bone_weight;  // mean over the triangle's corners

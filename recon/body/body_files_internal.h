@@ -29,7 +29,7 @@ struct BodyFiles {
   std::array<VertexMean, kRigBoneCount> bone_tail;
   std::vector<std::vector<std::pair<uint8_t, float>>> weights;  // per vertex: bone, weight
 
-  /// The vertices of a group, ascending, each once: of a joint-* cube its 8 corners.
+  /// The vertices of a group, ascending and unique; of a joint-* cube its 8 corners.
   VertexMean Vertices(const std::string& group) const;
 };
 

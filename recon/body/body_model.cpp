@@ -15,11 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMetresPerDecimetre = 0.1;
-// Constants: of MPFB's rig and shape targets, by their format; turns of fingers by eye.
+// Constants: by the format of MPFB's rig and shape targets; finger rotations by eye.
 
 constexpr float kDeltaUnit_dm = 1e-3f;  // decimetres a unit
 
-/// A factor of a target's weight: the word in its name and how much of it the shape has.
+/// One macro parameter's contribution to a target: the word in the target's name and its weight.
 struct Term {
   const char* word;
   double weight;
@@ -51,7 +51,8 @@ Factor TwoEnds(double value, const char* low, const char* high) {
       {{low, std::max(0.0, 1.0 - 2.0 * value)}, {high, std::max(0.0, 2.0 * value - 1.0)}});
 }
 
-// Calls visit(name, weight) for every product of the factors' terms, names joined by '-'.
+// Calls visit(name, weight) for each combination of one term per factor: names joined by '-',
+// weights multiplied.
 template <typename Visit>
 void ForEachProduct(const std::vector<Factor>& factors, const Visit& visit, size_t next = 0,
                     const std::string& name = {}, double weight = 1.0) {
@@ -78,6 +79,12 @@ std::vector<Eigen::Vector3f> VertexNormals(const std::vector<Eigen::Vector3f>& v
   return normals;
 }
 
+/// Of three knuckles. Fingers are slightly bent at rest: turning further about the same axis closes
+/// the hand.
+Eigen::Vector3d FlexionAxis(const Eigen::Vector3f* knuckle) {
+  return (knuckle[1] - knuckle[0]).cross(knuckle[2] - knuckle[1]).normalized().cast<double>();
+}
+
 }  // namespace
 
 BodyModel BodyModel::Load(const fs::path& folder) {
@@ -88,12 +95,12 @@ BodyModel BodyModel::Load(const fs::path& folder) {
   const fs::path cache = folder / "body.cache";
   try {
     if (!AreFilesNewer(folder, cache)) return BodyModelBuilder::ReadCache(cache);
-  } catch (const InputError&) {  // not there yet, or of another version: made anew from the files
+  } catch (const InputError&) {  // missing, or of another version: built from the files
   }
   BodyModel model = BodyModelBuilder::Build(ReadBodyFiles(folder));
   try {
     BodyModelBuilder::WriteCache(cache, model);
-  } catch (const InputError&) {  // a read-only folder only costs time at the next start
+  } catch (const InputError&) {  // without a cache the next start only takes longer
   }
   return model;
 }
@@ -122,7 +129,7 @@ void BodyModel::AddTarget(const std::string& name, double weight,
 }
 
 // v = base + sum over targets of (product of the factors' weights) · delta.
-ShapedBody BodyModel::Shape(const BodyShape& shape) const {
+std::vector<Eigen::Vector3f> BodyModel::Morph(const BodyShape& shape) const {
   std::vector<Eigen::Vector3f> v_dm = base_dm_;
   const auto add = [&](const std::string& name, double weight) { AddTarget(name, weight, &v_dm); };
   const Factor gender = Gender(shape.male), age = Age(shape.age);
@@ -138,7 +145,11 @@ ShapedBody BodyModel::Shape(const BodyShape& shape) const {
   ForEachProduct({gender, age, muscle, weight,
                   TwoEnds(shape.proportions, "uncommonproportions", "idealproportions")},
                  add);
+  return v_dm;
+}
 
+ShapedBody BodyModel::Shape(const BodyShape& shape) const {
+  const std::vector<Eigen::Vector3f> v_dm = Morph(shape);
   ShapedBody body;
   float low_dm = 1e9f, high_dm = -1e9f;
   for (size_t i = 0; i < vertex_count(); ++i) {
@@ -159,11 +170,7 @@ ShapedBody BodyModel::Shape(const BodyShape& shape) const {
   point += 2 * kRigBoneCount;
   for (size_t j = 0; j < kJointCount; ++j) body.joint_m[j] = metres(point[j]).cast<double>();
   point += kJointCount;
-  for (size_t k = 0; k < 4; ++k, point += 3) {
-    // At rest a finger is slightly bent already: turning on in the same sense closes the hand.
-    body.flexion_axis[k] =
-        (point[1] - point[0]).cross(point[2] - point[1]).normalized().cast<double>();
-  }
+  for (size_t k = 0; k < 4; ++k, point += 3) body.flexion_axis[k] = FlexionAxis(point);
   body.root_scale = body.bone_head_m[0].y() / StandardRigRest().head_m[0].y();
   return body;
 }

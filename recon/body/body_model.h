@@ -13,13 +13,13 @@
 
 namespace ossa::recon {
 
-/// A human shape by its macro parameters, as MakeHuman's. The neutral body is the default.
+/// A body shape as MakeHuman's macro parameters. The default is the neutral body.
 struct BodyShape {
   double male = 0.5;         // 0 female .. 1 male
   double age = 0.5;          // 0.1875 child, 0.5 young, 1 old; linear between
-  double muscle = 0.5;       // 0 .. 1, average at 0.5; the four below alike
+  double muscle = 0.5;       // 0 .. 1, average at 0.5; so are the next three
   double weight = 0.5;       //
-  double height = 0.5;       // the ends are dwarfs and giants (1.38 m, 2.47 m): stay near 0.5
+  double height = 0.5;       // stay near 0.5: 0 is 1.38 m tall, 1 is 2.47 m
   double proportions = 0.5;  // 0 uncommon .. 1 ideal
   double african = 1.0 / 3;  // the three sum to 1
   double asian = 1.0 / 3;
@@ -33,7 +33,7 @@ struct ShapedBody {
   std::array<Eigen::Vector3d, kRigBoneCount> bone_head_m;
   JointArray<Eigen::Vector3d> joint_m;  // the SDK's joints at rest
   double height_m = 0.0;                // of the body, without hair and shoes
-  double root_scale = 1.0;  // its hips' height over the average body's: scales RigPose::root_m
+  double root_scale = 1.0;  // hip height relative to the average body's: scales RigPose::root_m
   /// Axes about which fingers and thumb bend towards the palm: left fingers, left thumb, right ...
   std::array<Eigen::Vector3d, 4> flexion_axis;
 };
@@ -55,32 +55,32 @@ class BodyModel {
   const std::vector<std::array<uint32_t, 3>>& triangles() const { return triangles_; }
   /// Part label 1..31 of each triangle.
   const std::vector<uint8_t>& triangle_part() const { return triangle_part_; }
-  /// Layer of each vertex; a triangle's is that of any of its corners.
+  /// Layer of each vertex. All corners of a triangle have the same layer.
   const std::vector<BodyLayer>& vertex_layer() const { return vertex_layer_; }
-  /// Part label of each vertex (that of one of its triangles).
+  /// Part label of each vertex: that of one of its triangles.
   const std::vector<uint8_t>& vertex_part() const { return vertex_part_; }
-  /// Number of the rig's bone that moves the vertex most.
+  /// Index of the rig bone with the largest skinning weight.
   size_t MainBone(size_t vertex) const { return influence_[vertex].bone[0]; }
-  /// The bones that move a vertex, by falling weights; the weights' sum is 1.
+  /// The bones that move a vertex, in descending order of weight; weights sum to 1.
   struct Influence {
     std::array<uint8_t, 4> bone{};
     std::array<float, 4> weight{};
   };
   const Influence& InfluenceOn(size_t vertex) const { return influence_[vertex]; }
-  /// The neutral position of each vertex, metres: to say where on the body a vertex is.
+  /// The neutral position of each vertex, metres; it identifies the vertex's place on the body.
   const std::vector<Eigen::Vector3f>& base_m() const { return base_m_; }
 
-  /// Linear-blend skinning: v' = cam_from_world · sum_b w_b (R_b (v - head_b) + head'_b).
-  /// `rest_m` may be the body's rest vertices displaced by clothes.
+  /// Linear-blend skinning: v' = cam_from_world · sum_b w_b (R_b (v - head_b) + head'_b). `rest_m`
+  /// may be the body's rest vertices displaced by clothing.
   void Skin(const ShapedBody& body, std::span<const Eigen::Vector3f> rest_m, const RigPose& pose,
             const Eigen::Isometry3d& cam_from_world, std::span<Eigen::Vector3f> posed_m) const;
 
  private:
   friend struct BodyModelBuilder;
 
-  // After the vertices come points: bone heads, bone tails, the SDK's joints, and three knuckles of
-  // each finger group of ShapedBody::flexion_axis. They are means of vertices, so that a target's
-  // deltas there are means too.
+  // Landmarks follow the vertices: bone heads, bone tails, the SDK's joints, and three knuckles of
+  // each finger group of ShapedBody::flexion_axis. Each is a mean of vertices, so the target deltas
+  // of a landmark are means, too.
   static constexpr size_t kLandmarkCount = kJointCount + 12;
   static constexpr size_t kPointCount = 2 * kRigBoneCount + kLandmarkCount;
 
@@ -90,6 +90,8 @@ class BodyModel {
     std::vector<std::array<float, 3>> point_delta_dm;  // kPointCount
   };
 
+  /// Base mesh and landmarks deformed by the shape's targets, decimetres.
+  std::vector<Eigen::Vector3f> Morph(const BodyShape& shape) const;
   const Target& Find(const std::string& name) const;
   void AddTarget(const std::string& name, double weight, std::vector<Eigen::Vector3f>* v_dm) const;
 
@@ -104,12 +106,12 @@ class BodyModel {
   std::vector<Target> targets_;
 };
 
-/// Where tools/fetch_body puts the body: $OSSA_BODY_DIR, else $XDG_CACHE_HOME/ossa/mpfb2, else
+/// The folder that tools/fetch_body fills: $OSSA_BODY_DIR, else $XDG_CACHE_HOME/ossa/mpfb2, else
 /// ~/.cache/ossa/mpfb2.
 std::filesystem::path BodyFolder();
 bool BodyIsFetched(const std::filesystem::path& folder);
 
-/// Heads of the bones of a posed body: joints carried along by their parents.
+/// Bone heads of a posed body, by forward kinematics.
 std::array<Eigen::Vector3d, kRigBoneCount> PosedBoneHeads(const ShapedBody& body,
                                                           const RigPose& pose);
 /// The SDK's 20 joints of a posed body, world, metres.

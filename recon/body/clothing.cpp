@@ -5,13 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "depth/base/random.h"
 #include "recon/body/parts.h"
 #include "recon/body/standard_body.h"
 
 namespace ossa::recon {
 namespace {
 
-// Parts by label (parts.h), the left side's; a right label is one more.
+// Label of the left part (parts.h); the right one is one more.
 bool IsPart(uint8_t part, int left_label) { return part == left_label || part == left_label + 1; }
 
 float ShareAlong(const Eigen::Vector3f& p, const Eigen::Vector3d& from_m,
@@ -31,13 +32,9 @@ float AlongLimb(const Eigen::Vector3f& p, size_t first_bone) {
 class Waves {
  public:
   explicit Waves(uint64_t seed) {
-    uint64_t state = seed;
-    const auto uniform = [&state] {  // SplitMix64
-      state += 0x9E3779B97F4A7C15u;
-      uint64_t x = state;
-      x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-      x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-      return static_cast<float>((x ^ (x >> 31)) >> 40) * (1.0f / 16777216.0f);
+    Random random(seed);
+    const auto uniform = [&random] {
+      return static_cast<float>(random.Bits() >> 40) * (1.0f / 16777216.0f);
     };
     for (auto& wave : waves_) {
       Eigen::Vector3f direction(uniform() - 0.5f, uniform() - 0.5f, uniform() - 0.5f);
@@ -70,19 +67,19 @@ constexpr float kWaist_m = 1.00f, kCrotch_m = 0.80f;
 constexpr float kKnee_m = 0.475f;
 constexpr uint8_t kNeckPart = 5;
 constexpr float kCuff = 1.8f;          // where gloves begin, 2 the wrist
-constexpr float kHiddenScale = 0.01f;  // of what is not worn; factor; by hand
+constexpr float kHiddenScale = 0.01f;  // scale of layers that are not worn; factor; by hand
 
 constexpr float kNeutralHeight_m = 1.66f;
-constexpr float kChest_m = 1.28f;  // cloth hangs from there and from the shoulder blades
+constexpr float kChest_m = 1.28f;  // cloth hangs freely below chest and shoulder blades
 
-/// Where round the body, radians. Computed in double precision, which all processors round alike.
+/// Azimuth around the body, radians. Double precision, because all processors round it alike.
 float Around(const Eigen::Vector3f& p) {
   return static_cast<float>(std::atan2(static_cast<double>(p.x()), static_cast<double>(p.z())));
 }
 
-/// Folds run down from where cloth hangs and are deepest at its hem (`down` = 1).
+/// Folds run vertically and are deepest at the hem (`down` = 1).
 Eigen::Vector3f ComputeFold(const Clothing& clothing, const Eigen::Vector3f& p, float down) {
-  constexpr uint64_t kFewest = 5, kKinds = 9;  // folds round the body; by hand
+  constexpr uint64_t kFewest = 5, kKinds = 9;  // number of folds around the body; by hand
   const auto count = static_cast<float>(kFewest + clothing.pattern % kKinds);
   const float phase = static_cast<float>(clothing.pattern >> 8 & 0xFFU) * 0.0245f;  // 0 to 2 pi
   const float wave = std::sin(count * Around(p) + phase + 3.0f * p.y());
@@ -90,7 +87,7 @@ Eigen::Vector3f ComputeFold(const Clothing& clothing, const Eigen::Vector3f& p, 
   return static_cast<float>(clothing.fold_m) * down * wave * out;
 }
 
-// `scale`: of the body to the neutral one.
+// `scale`: size relative to the neutral body.
 void DrapeSkirt(const Clothing& clothing, const Waves& waves, float scale, Eigen::Vector3f* p) {
   const float hem_m =
       scale * (kCrotch_m - (kCrotch_m - kKnee_m) * static_cast<float>(clothing.skirt_end));
@@ -103,14 +100,14 @@ void DrapeSkirt(const Clothing& clothing, const Waves& waves, float scale, Eigen
   if (clothing.fold_m > 0) *p += ComputeFold(clothing, *p, down);
 }
 
-// Strands before the face are cut to a fringe.
+// Strands in front of the face are cut to a fringe.
 void CutHair(const Clothing& clothing, bool before_face, float scale, Eigen::Vector3f* p) {
   const float end_m = scale * (1.50f - 0.45f * static_cast<float>(clothing.long_hair_end));
   p->y() = std::max(p->y(), before_face ? scale * kFringe_m : end_m);
 }
 
-/// How far from the body's axis cloth hangs, by height and direction: as far out as what it touches
-/// above, less what it falls back towards the body on its way down.
+/// Radius of hanging cloth by height and direction: the radius of what it touches above, minus what
+/// it falls back towards the body on the way down.
 class Curtain {
  public:
   Curtain(float scale, float hang) : step_m_(scale * kTop_m / kRows), hang_(hang) {}
@@ -120,10 +117,10 @@ class Curtain {
     reach_m = std::max(reach_m, Radius(p));
   }
   void Fall() {
-    constexpr float kFallsBack = 0.12f;  // of its way down; share; by hand
+    constexpr float kFallsBack = 0.12f;  // share of the drop; by hand
     for (size_t row = kRows - 1; row-- > 0;) {
       for (size_t column = 0; column < kColumns; ++column) {
-        // A fold's neighbours carry it: the mean of three directions.
+        // Cloth is stiff between neighbouring directions: mean of three.
         const auto& above = reach_m_[row + 1];
         const float mean_m = (above[(column + kColumns - 1) % kColumns] + above[column] +
                               above[(column + 1) % kColumns]) /
@@ -133,7 +130,7 @@ class Curtain {
       }
     }
   }
-  /// The place moved out to where the cloth hangs.
+  /// The point moved outwards onto the hanging cloth.
   Eigen::Vector3f Outside(const Eigen::Vector3f& p) const {
     const float radius_m = Radius(p);
     const float out = radius_m > 0 ? std::max(1.0f, reach_m_[Row(p)][Column(p)] / radius_m) : 1.0f;
@@ -232,7 +229,7 @@ std::vector<Eigen::Vector3f> Wardrobe::Dress(const ShapedBody& body,
   const Waves waves(clothing.pattern);
   const auto wrinkle = static_cast<float>(clothing.wrinkle);
   // Lengths of skirt and hair are measured on the neutral body and scale with this one.
-  const auto scale = static_cast<float>(body.height_m / 1.66);  // not the float: same bytes
+  const auto scale = static_cast<float>(body.height_m / 1.66);  // double: data sets depend on it
   std::vector<Eigen::Vector3f> dressed = body.rest_m;
   for (size_t i = 0; i < dressed.size(); ++i) {
     const Place& place = place_[i];
@@ -278,7 +275,7 @@ void Wardrobe::HideUnworn(const Clothing& clothing, const Eigen::Vector3f& insid
     const Region region = place_[i].region;
     if ((region == Region::kSkirt && clothing.skirt_end <= 0) ||
         (region == Region::kLongHair && clothing.long_hair_end <= 0)) {
-      // Not quite one point: a mesh without any extent aborts Embree's two-level builder.
+      // Not exactly one point: a mesh without extent aborts Embree's two-level builder.
       posed_m[i] = inside_m + kHiddenScale * (posed_m[i] - inside_m);
     }
   }

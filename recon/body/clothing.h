@@ -18,26 +18,26 @@ struct Clothing {
   double shoe_m = 0.008;       // over the feet
   double wrinkle = 0.4;        // of a layer's thickness, waves 8-25 cm long
   double hair_m = 0.01;        // over the skull
-  double long_hair_end = 0.0;  // how far hair hangs down: 0 none, 1 to the middle of the back
+  double long_hair_end = 0.0;  // length of hanging hair: 0 none, 1 to the middle of the back
   double skirt_end = 0.0;      // 0 none, 1 to the knee, 1.5 at most
   double skirt_flare = 0.0;    // widening of the hem, share of its width
   double hang = 0.0;           // 0: the shirt fits; 1: it hangs straight down from chest and back
-  double fold_m = 0.0;         // depth of the folds that what hangs falls into, at its hem
+  double fold_m = 0.0;         // depth of the folds of hanging cloth, at its hem
   double hood_m = 0.0;         // a hood's distance from skull, hair and neck; 0: none
   double glove_m = 0.0;        // over hands and wrists; 0: none
   uint64_t pattern = 1;        // seed of the wrinkles
 };
 
-/// Dresses bodies of one model. Where on the body a vertex lies is worked out once.
+/// Dresses bodies of one model. The location of each vertex on the body is computed once.
 class Wardrobe {
  public:
   explicit Wardrobe(const BodyModel& model);
 
-  /// The body's rest vertices moved outwards by what it wears. Same triangles as the model.
+  /// The body's rest vertices displaced outwards by clothing. Same triangles as the model.
   std::vector<Eigen::Vector3f> Dress(const ShapedBody& body, const Clothing& clothing) const;
 
-  /// Layers that are not worn (skirt, long hair) shrink to a point: call it after skinning with a
-  /// place inside of the posed body.
+  /// Shrinks layers that are not worn (skirt, long hair) to a point. Call it after skinning, with a
+  /// point inside the posed body.
   void HideUnworn(const Clothing& clothing, const Eigen::Vector3f& inside_m,
                   std::span<Eigen::Vector3f> posed_m) const;
 
@@ -56,10 +56,10 @@ class Wardrobe {
   };
   struct Place {
     Region region = Region::kNone;
-    float along = 0;  // arms, legs: 0, 1, 2 at the three joints; torso: 1 at the hips' height
-    bool before_face = false;  // of long hair
+    float along = 0;           // arms, legs: 0, 1, 2 at the three joints; torso: 1 at hip height
+    bool before_face = false;  // long hair in front of the face
   };
-  /// Of what is worn on the skin there; 0: nothing.
+  /// Thickness of the clothing at a place on the skin; 0: none.
   static double ThicknessAt_m(const Place& place, const Clothing& clothing);
   void LetHang(const ShapedBody& body, const Clothing& clothing,
                std::vector<Eigen::Vector3f>* dressed_m) const;

@@ -8,7 +8,7 @@
 namespace ossa::recon {
 namespace {
 
-// Labels of the person's left; the right's is kMirroredPart of it.
+// Labels of the person's left side; kMirroredPart gives the right ones.
 enum LeftPart : uint8_t {
   kUpperHead = 1,
   kLowerHead = 3,
@@ -111,7 +111,7 @@ uint8_t LabelLeftPart(const PartLabelInput& place, const PartLandmarks& marks, b
   const float arm =
       SumWeights(place, {kArm, kForeArm, kHandBone, kFingerBase, kFinger, kThumb}, arm_side);
   const float collar = place.bone_weight[kCollar + arm_side];
-  // A skirt hangs between both legs.
+  // Skirt vertices are weighted to both legs.
   const float leg = SumWeights(place, {kUpLeg, kLeg, kFootBone, kToe}, 0) +
                     SumWeights(place, {kUpLeg, kLeg, kFootBone, kToe}, kRightLegOffset);
   const float head = place.bone_weight[kHeadBone];
@@ -134,7 +134,8 @@ uint8_t LabelPart(const PartLabelInput& place, const PartLandmarks& landmarks) {
 }
 
 Rgb PartColour(int label) {
-  // Left parts are warm, right parts cold; joints' patches lighter than the limbs between them.
+  // Left parts have warm colours, right parts cold ones; joint patches are lighter than the limbs
+  // between them.
   static constexpr std::array<Rgb, kLabelCount> kColours = {{
       {0, 0, 0},                                                           // background
       {255, 90, 60},   {60, 120, 255},  {200, 50, 90},   {40, 70, 170},    // head

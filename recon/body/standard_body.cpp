@@ -148,7 +148,7 @@ const JointOrientations& StandardOrientations() {
   return rest;
 }
 
-// The bone of joint j turns with the rig bone that carries its parent joint.
+// The bone that ends in joint j rotates with the rig bone that carries its parent joint.
 JointOrientations ComputeOrientations(const RigPose& pose) {
   const auto& anchors = StandardJointAnchors();
   JointOrientations out;
@@ -160,8 +160,8 @@ JointOrientations ComputeOrientations(const RigPose& pose) {
 }
 
 Eigen::Quaterniond EstimateHeading(const RigPose& pose) {
-  // The pelvis' left axis stays level when a person bends or sits, the forward axis does not; only
-  // for a body lying on its side is it the other way round.
+  // The pelvis' left axis stays level when a person bends or sits, its forward axis does not. Only
+  // when a body lies on its side is it the reverse.
   const Eigen::Vector3d left = pose.world_from_rest[0] * Eigen::Vector3d::UnitX();
   Eigen::Vector3d forward(-left.z(), 0.0, left.x());
   if (forward.norm() < 0.5) forward = pose.world_from_rest[0] * Eigen::Vector3d::UnitZ();

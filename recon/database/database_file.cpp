@@ -23,9 +23,9 @@ void ExpectFinite(const PayloadReader& reader, std::span<const float> values, fl
   }
 }
 
-/// Version 1 counts the turn of a bone from the standing person with hanging arms, where each
-/// bone's frame is the world's, turned by the smallest rotation onto the bone. In the convention of
-/// recon/orientation.h the frames of that stance are others, by the same turn in every posture.
+/// Version 1 stores bone orientations relative to a person who stands with hanging arms, where each
+/// bone's frame is the world's, turned by the smallest rotation onto the bone. The frames of
+/// recon/orientation.h differ from these by one constant rotation per bone.
 JointArray<Eigen::Quaterniond> TurnsFromStance() {
   const Posture stance = StandardPosture(RigPose{});
   JointArray<Eigen::Quaterniond> turns;

@@ -14,9 +14,10 @@ PostureVector Expanded(const JointWeights& weights) {
   return out;
 }
 
-// Departure: the paper searches by brute force over 2 574 postures. This is the same exact search,
-// left early: after each 12 numbers (arm, arm, legs, trunk) a posture already farther than the k-th
-// best is dropped. Blocks in the order in which people differ most.
+// Departure: the paper searches 2 574 postures by brute force. This search is exact as well, but
+// stops early: a posture is dropped once its partial distance, summed in blocks of 12 numbers,
+// exceeds the k-th best. Blocks (arm, arm, legs, trunk) are in descending order of variation
+// between postures.
 constexpr int kBlockSize = 12;
 constexpr int kBlocks[5] = {3 * 4, 3 * 8, 3 * 12, 3 * 16, 0};
 
@@ -54,7 +55,7 @@ std::vector<Neighbour> NearestPostures(const PostureDatabase& database, const Po
     std::nth_element(d.begin(), d.begin() + static_cast<ptrdiff_t>(wanted) - 1, d.end());
     limit = d[wanted - 1] * 1.0001F + 1e-9F;
   }
-  std::vector<Neighbour> heap;  // the worst kept one in front
+  std::vector<Neighbour> heap;  // max-heap: the farthest one first
   heap.reserve(wanted + 1);
   for (int i = 0; i < n; ++i) {
     const float d = Distance(data + size_t(i) * kPostureDims, query, w, limit);

@@ -16,8 +16,8 @@ struct Neighbour {
   auto operator<=>(const Neighbour&) const = default;
 };
 
-/// The k nearest postures under eq. 9, nearest first, exactly. `hints` (the last frame's result)
-/// only make it faster: they bound the k-th distance, so that most postures are dropped after the
+/// The k nearest postures under eq. 9, nearest first, exact. `hints` (the last frame's result) only
+/// speed up the search: they bound the k-th distance, so that most postures are dropped after the
 /// first few joints.
 std::vector<Neighbour> NearestPostures(const PostureDatabase& database, const PostureVector& query,
                                        const JointWeights& weights, int k,

@@ -1,4 +1,4 @@
-// L. Plantard, H. P. H. Shum, F. Multon, Filtered pose graph for efficient Kinect pose
+// P. Plantard, H. P. H. Shum, F. Multon, Filtered pose graph for efficient Kinect pose
 // reconstruction, 2016, section 4; Shum et al. 2013 section V-A.
 #include "recon/database/posture_database.h"
 
@@ -37,11 +37,11 @@ Quaternions ToQuaternions(const JointOrientations& orientations, double yaw_rad)
   return out;
 }
 
-/// Algorithm 1: what is kept of one clip, and the distances of successive kept postures. Departure:
-/// each posture is compared with the one kept last, not with all of P_intra: connections are then
-/// steps that people make without a discontinuity, and their spread is small, as in the paper (0.21
-/// +- 0.02 m for thres_1 = 0.2 m). Compared with all that was kept, a move back through kept
-/// postures would make one connection a metre long. What comes twice, algorithm 2 removes.
+/// Algorithm 1: the postures kept of one clip, and the distances between successive kept ones.
+/// Departure: each posture is compared with the one kept last, not with all of P_intra. Connections
+/// are then steps that people make without a discontinuity, and their spread is small, as in the
+/// paper (0.21 +- 0.02 m for thres_1 = 0.2 m). Compared with all kept postures, a movement back
+/// through known postures would make one connection a metre long. Algorithm 2 removes duplicates.
 std::vector<ClipPosture> FilterIntraPoses(const PostureClip& clip, const DatabaseOptions& options,
                                           std::vector<double>& connections) {
   JointWeights all;
@@ -129,8 +129,8 @@ PostureDatabase PostureDatabase::Build(const std::vector<PostureClip>& clips,
   return db;
 }
 
-// Algorithm 3, the nearest first. Where `most_edges` cuts off, an edge may be left in one
-// direction: the denser of two places has nearer nodes to keep.
+// Algorithm 3, nearest first. Where `most_edges` truncates, an edge may remain in one direction
+// only: in a denser region a node has nearer neighbours to keep.
 void PostureDatabase::Connect(const std::function<bool()>& stop) {
   PostureGrid grid(static_cast<float>(edge_threshold_m_), DatabaseFilter::kMaxJoint);
   for (int i = 0; i < size(); ++i) grid.Insert(postures_.col(i));

@@ -6,11 +6,10 @@
 namespace ossa::recon {
 namespace {
 
-// x and y of the hands' and feet's most independent moves: left hand x y, right hand y, left foot
-// z.
+// The most independent coordinates of hands and feet: left hand x y, right hand y, left foot z.
 constexpr std::array<int, 4> kAxes = {3 * 7, 3 * 7 + 1, 3 * 11 + 1, 3 * 15 + 2};
 
-// Extremities first: they differ most, so that a difference shows early.
+// Extremities first: they vary most, so large distances are detected early.
 constexpr JointArray<int> kJointOrder = {11, 7,  15, 19, 10, 6, 14, 18, 9,  5,
                                          13, 17, 3,  8,  4,  2, 1,  12, 16, 0};
 

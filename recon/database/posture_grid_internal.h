@@ -8,12 +8,12 @@
 
 namespace ossa::recon {
 
-/// Distance of the filters: never smaller than the difference of any single coordinate, which is
-/// what the grid relies on. Returns at once when it exceeds `limit`.
+/// The filters' distance metric. It is at least the difference of any single coordinate; the grid
+/// relies on that. Returns early once it exceeds `limit`.
 float FilterDistance(const float* a, const float* b, DatabaseFilter filter, float limit);
 
-/// Postures in a hash of cells over four coordinates (hands and feet move most), cell size = search
-/// radius: everything within the radius of a posture lies in its 3^4 cells.
+/// A spatial hash over four coordinates (hands and feet vary most) with a cell size equal to the
+/// search radius: all postures within the radius lie in 3^4 cells.
 class PostureGrid {
  public:
   PostureGrid(float radius_m, DatabaseFilter filter) : radius_m_(radius_m), filter_(filter) {}
@@ -28,7 +28,7 @@ class PostureGrid {
  private:
   using Cell = std::array<int, 4>;
   Cell CellOf(const PostureVector& posture) const;
-  /// Calls visit(index) for the postures of the cells around; stops when it returns true.
+  /// Calls visit(index) for the postures in the surrounding cells until it returns true.
   template <typename Visit>
   bool VisitAround(const PostureVector& posture, Visit visit) const;
 

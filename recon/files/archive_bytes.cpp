@@ -18,7 +18,7 @@ namespace {
 
 // Constants: bounds by hand.
 constexpr size_t kMostBytes = size_t{1} << 30;
-// The largest public sets of skeletons have some ten thousand recordings a file.
+// The largest public skeleton data sets have some ten thousand recordings per file.
 constexpr size_t kMostMembers = 100000;
 
 [[noreturn]] void FailTooLarge(const std::filesystem::path& path) {
@@ -33,7 +33,7 @@ std::string FirstBytes(const std::filesystem::path& path, size_t count) {
   return bytes;
 }
 
-// The bytes that libarchive takes an archive from: of a file, or of what is packed in it.
+// The input of libarchive: a file, or the content of a gzip file.
 class ArchiveBytes {
  public:
   explicit ArchiveBytes(const std::filesystem::path& path) {
@@ -51,9 +51,9 @@ class ArchiveBytes {
     zeros_ = zeros == piece.size() ? zeros_ + zeros : zeros;
     return piece;
   }
-  /// How many zeros the bytes given so far end with.
+  /// Number of trailing zero bytes of the input so far.
   size_t zeros_at_the_end() const { return zeros_; }
-  /// What Next threw inside libarchive, which is no C++.
+  /// Exception thrown by Next inside libarchive, which is C and must not be unwound.
   std::exception_ptr failure;
 
  private:
@@ -88,7 +88,7 @@ class Archive {
     archive_read_support_format_zip(reader_.get());
     is_zip_ = FirstBytes(path, kZip.size()) == kZip;
     if (is_zip_) CheckZipTable(path);
-    // A zip's table of members is at its end.
+    // A zip's central directory is at its end.
     constexpr size_t kBlock = size_t{1} << 16;
     status_ = is_zip_ ? archive_read_open_filename(reader_.get(), path.c_str(), kBlock)
                       : archive_read_open(reader_.get(), &bytes_, nullptr, NextForArchive, nullptr);
@@ -96,8 +96,8 @@ class Archive {
 
   archive* get() const { return reader_.get(); }
   bool is_open() const { return status_ == ARCHIVE_OK; }
-  /// Whether a member is a file. What a zip says of its kind nothing vouches for: those that are
-  /// none are named as folders.
+  /// Whether a member is a file. A zip's file types are not reliable; folders in it have names that
+  /// end in '/'.
   bool IsFile(archive_entry* entry, const std::string& name) const {
     return is_zip_ ? !name.ends_with('/') : archive_entry_filetype(entry) == AE_IFREG;
   }
@@ -124,8 +124,8 @@ class Archive {
     }
   }
 
-  /// What libarchive leaves unread: a gzip's checksum. A tar ends with two empty blocks; one that
-  /// was cut between two members would else seem whole.
+  /// Reads what libarchive leaves unread: a gzip's checksum, and a tar's two empty end blocks,
+  /// without which a tar that was cut between two members would pass for a complete one.
   void CheckEnd() {
     if (is_zip_) return;
     while (!bytes_.Next().empty()) {
@@ -155,8 +155,8 @@ class Archive {
   int status_ = ARCHIVE_OK;
 };
 
-// Programs begin in the C locale, in which libarchive has no name for members of a .zip that are
-// named beyond ASCII: they would all be one. For this thread, and for characters only.
+// Programs start in the C locale, in which libarchive has no names for .zip members outside ASCII:
+// all would be the same. Sets UTF-8 for this thread, and for character types only.
 class Utf8Names {
  public:
   Utf8Names() : utf8_(newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)) {
@@ -180,8 +180,8 @@ std::string NameOf(archive_entry* entry, size_t number) {
   return name != nullptr ? name : "member " + std::to_string(number);
 }
 
-// Of a name under which something is written into a folder: whether it would lie elsewhere.
-bool LeadsOut(const std::filesystem::path& name) {
+// Whether a relative name would lie outside the folder that it is written into.
+bool EscapesFolder(const std::filesystem::path& name) {
   return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
 }
 
@@ -196,7 +196,7 @@ bool IsArchive(const std::filesystem::path& path) {
     return true;
   }
   if (!head.starts_with("\x1F\x8B")) return false;
-  // A gzip holds an archive when a first tar header can be read from it.
+  // A gzip file holds an archive if it starts with a valid tar header.
   const std::string name = path.filename().string();
   if (name.ends_with(".tgz") || name.ends_with(".tar.gz")) return true;
   const Archive archive(path);
@@ -217,7 +217,7 @@ std::map<std::string, std::string> ReadArchive(const std::filesystem::path& path
     }
     const std::string name = NameOf(entry, members.size());
     if (!archive.IsFile(entry, name)) continue;
-    if (LeadsOut(name)) {
+    if (EscapesFolder(name)) {
       throw InputError(path.string() + "#" + name +
                        ": expected members named as within the archive, found one that leads out");
     }

@@ -11,10 +11,10 @@ namespace ossa::recon {
 /// Throws InputError "NAME: byte N: expected EXPECTED".
 [[noreturn]] void FailAtByte(const std::string& name, size_t byte, const std::string& expected);
 
-/// All there is, 1 GiB at most.
+/// The rest of the input, 1 GiB at most.
 std::string ReadAllBytes(SkeletonInput& input);
 
-/// A little-endian value; the caller has checked that its bytes are there.
+/// A little-endian value. The caller has checked that enough bytes are left.
 template <typename T>
 T ValueAt(std::string_view bytes, size_t offset) {
   T value{};

@@ -8,7 +8,7 @@
 namespace ossa::recon {
 namespace {
 
-// How often `separator` stands outside quotes.
+// Number of occurrences of `separator` outside quotes.
 size_t CountOutsideQuotes(std::string_view line, char separator) {
   size_t count = 0;
   bool quoted = false;
@@ -45,7 +45,7 @@ std::vector<std::string> CsvFields::Split(std::string_view line) const {
   for (size_t at = 0; at < line.size(); ++at) {
     const char c = line[at];
     if (c == '"' && quoted && at + 1 < line.size() && line[at + 1] == '"') {
-      fields.back().push_back(line[++at]);  // two of them stand for one
+      fields.back().push_back(line[++at]);  // a doubled quote is an escaped one
     } else if (c == '"') {
       quoted = !quoted;
     } else if (c == separator_ && !quoted) {

@@ -5,17 +5,18 @@
 
 namespace ossa::recon {
 
-/// Takes the lines of a table with a header apart, as ossa and spreadsheets of any country save it:
-/// fields between ',', ';' or tabs, whichever the header has most of, in quotes or not. A number
-/// with a decimal comma, which a ',' between fields allows in quotes only, gets a point.
+/// Splits the lines of a table with a header, as ossa and spreadsheets of any locale save it:
+/// fields are separated by ',', ';' or tabs, whichever is most frequent in the header, and may be
+/// quoted. Decimal commas become points; where ',' separates fields, they occur in quotes only.
 class CsvFields {
  public:
   explicit CsvFields(std::string_view header);
 
-  /// Without white space and quotes about them. A separator at the end opens an empty last field.
+  /// Fields without surrounding white space and quotes. A separator at the end starts an empty last
+  /// field.
   std::vector<std::string> Split(std::string_view line) const;
-  /// The same of a row of a table of so many columns: of blank fields beyond these, as spreadsheets
-  /// add, nothing is left.
+  /// As Split, for a row of a table of `columns` columns: drops blank fields beyond them, which
+  /// spreadsheets add.
   std::vector<std::string> SplitRow(std::string_view line, size_t columns) const;
 
  private:

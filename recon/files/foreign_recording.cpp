@@ -8,7 +8,7 @@ namespace {
 constexpr std::string_view kExport = "export it as BVH, TRC or C3D";
 constexpr std::string_view kJsonl =
     "write it as ossa's JSONL, metres (docs/files.md, 'Any other recording')";
-// Also what such a table is taken for whose first lines are not all sound.
+// Also the answer for such a table if its first lines are damaged.
 constexpr std::string_view kNamed =
     "write it as ossa's JSONL, or as a table of lines FRAME JOINT x y z (docs/files.md, 'Tables of "
     "named joints')";
@@ -17,12 +17,12 @@ constexpr std::string_view kFlat =
 
 struct ForeignRecording {
   std::string_view name;
-  std::string_view how;                   // to have it read
-  bool at_begin;                          // the first mark is what the file begins with
-  std::array<std::string_view, 2> marks;  // all are in the file's head, in small letters
+  std::string_view how;                   // how to convert it
+  bool at_begin;                          // the file starts with the first mark
+  std::array<std::string_view, 2> marks;  // all occur in the head of the file, lower case
 };
 
-// The unmistakable ones first: by what their programs write (FBX SDK, Xsens MVN, OptiTrack Motive,
+// Unambiguous formats first, by the marks of their programs (FBX SDK, Xsens MVN, OptiTrack Motive,
 // Vicon Nexus, Acclaim, NumPy, pickle protocols 2 to 5, MATLAB, HDF5, glTF, OpenPose and AlphaPose,
 // COCO, MediaPipe's landmarks, Kinect SDK names).
 constexpr ForeignRecording kForeign[] = {
@@ -55,7 +55,7 @@ constexpr ForeignRecording kForeign[] = {
     {"joints by name", kNamed, false, {"shoulder_left", "knee_left"}},
 };
 
-// Bytes beyond ASCII stay what they are in every locale.
+// ASCII lower case, whatever the locale.
 std::string InSmallLetters(std::string_view text) {
   std::string small(text);
   for (char& c : small) {

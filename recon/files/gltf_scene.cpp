@@ -9,7 +9,7 @@
 namespace ossa::recon {
 namespace {
 
-// By hand: colours that are told apart, of the six people that the tracker follows, linear.
+// By hand: six distinguishable colours, linear, for the six people that the tracker follows.
 constexpr std::array<std::array<double, 3>, 6> kColours = {{{0.55, 0.58, 0.62},
                                                             {0.75, 0.42, 0.25},
                                                             {0.25, 0.50, 0.70},
@@ -21,7 +21,7 @@ int Last(size_t count) { return static_cast<int>(count) - 1; }
 
 std::vector<double> AsList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// How many numbers an element of the type has, as glTF says it.
+/// Components per element of a glTF accessor type.
 constexpr std::array<std::pair<int, size_t>, 4> kWidths = {{{TINYGLTF_TYPE_SCALAR, 1},
                                                             {TINYGLTF_TYPE_VEC3, 3},
                                                             {TINYGLTF_TYPE_VEC4, 4},
@@ -50,7 +50,7 @@ struct GltfScene::Impl {
 
   tinygltf::Animation& motion() { return model.animations[0]; }
 
-  /// Numbers of one kind, as an accessor; its number.
+  /// Adds numbers as an accessor; returns its index.
   template <typename T>
   int Add(const std::vector<T>& values, int component, int type, int target) {
     std::vector<unsigned char>& data = model.buffers[0].data;
@@ -74,7 +74,7 @@ struct GltfScene::Impl {
   int AddFloats(const std::vector<float>& values, int type, int target = 0) {
     return Add(values, TINYGLTF_COMPONENT_TYPE_FLOAT, type, target);
   }
-  /// The same with the least and greatest of each component, which glTF wants of some.
+  /// As Add, with the minimum and maximum of each component, which glTF requires of some accessors.
   int AddBounded(const std::vector<float>& values, int type, int target = 0) {
     const int number = AddFloats(values, type, target);
     tinygltf::Accessor& accessor = model.accessors.back();
@@ -97,7 +97,7 @@ struct GltfScene::Impl {
   void AddChannel(int node, const char* path, const char* interpolation, int times, int values);
 };
 
-/// Returns the first one's number; the person's own is before it.
+/// Returns the index of the first node; the person's own root node is the one before it.
 int GltfScene::Impl::AddRestNodes(const std::string& name, std::span<const RestNode> nodes) {
   tinygltf::Node person;
   person.name = name;

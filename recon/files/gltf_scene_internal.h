@@ -12,23 +12,23 @@
 
 namespace ossa::recon {
 
-/// Nodes of a person, by their numbers: bones in order of kHumanBones, then the hands' ends.
+/// Number of a person's nodes: bones in the order of kHumanBones, then the ends of the hands.
 inline constexpr size_t kPersonNodes = kHumanBoneCount + 2;
 
-/// A node of a person at rest, which is turned as its parent is: number of its parent's (-1: the
-/// person's), and where it is.
+/// A node in the rest pose, with its parent's orientation: index of the parent (-1: the person's
+/// root) and position.
 struct RestNode {
   std::string name;
   int parent = -1;
   Eigen::Vector3d place_m = Eigen::Vector3d::Zero();
 };
 
-/// A person's motion: keys in order of time, from 0 s on.
+/// A person's motion: keyframes in order of time, starting at 0 s.
 struct PersonTracks {
   std::vector<float> time_s;
-  /// Against the parent's, x y z and x y z w of each key; empty: as at rest.
+  /// Relative to the parent, per keyframe x y z and x y z w; empty: the rest pose.
   std::vector<std::vector<float>> translation_m, rotation;
-  /// When the person is there, in steps: times, and 1 or 0 at each; empty: always.
+  /// Visibility as a step function: times, and 1 or 0 at each; empty: always visible.
   std::vector<float> presence_s, presence;
 };
 
@@ -38,10 +38,10 @@ class GltfScene {
   GltfScene();
   ~GltfScene();
 
-  /// `body` and `mesh` null: bones alone.
+  /// `body` and `mesh` null: a skeleton without skin.
   void AddPerson(const std::string& name, std::span<const RestNode> nodes, const SkinnedBody* body,
                  const BodyMesh* mesh, const PersonTracks& tracks);
-  /// Of the numbers in it until now.
+  /// Size of the buffers so far.
   size_t Bytes() const;
   /// As binary glTF (.glb).
   void Write(std::ostream& stream);

@@ -26,7 +26,7 @@ struct GzipBytes::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  // False at the end of the file.
+  // Reads more compressed bytes. False at the end of the file.
   bool NeedInput() {
     if (stream.avail_in > 0) return true;
     file.read(packed.data(), static_cast<std::streamsize>(packed.size()));
@@ -41,7 +41,7 @@ struct GzipBytes::State {
                      ": expected a whole archive, found " + found);
   }
 
-  // Another member follows, or nothing but zeros. True when there is another.
+  // Skips to the next gzip member; trailing zeros are allowed. False if there is none.
   bool NextMember() {
     while (NeedInput() && *stream.next_in == 0) {
       ++stream.next_in;
@@ -58,9 +58,9 @@ struct GzipBytes::State {
   z_stream stream{};
   std::array<char, kPiece> packed;
   std::array<char, kPiece> unpacked;
-  uint64_t read = 0;  // bytes of the file
+  uint64_t read = 0;  // compressed bytes read
   bool filled_up = false;
-  bool ended = false;  // the member
+  bool ended = false;  // whether the current member has ended
 };
 
 GzipBytes::GzipBytes(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {}

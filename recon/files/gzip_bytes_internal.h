@@ -5,17 +5,17 @@
 
 namespace ossa::recon {
 
-/// What is packed in a .gz, piece by piece, its checksums and lengths verified: libarchive's own
-/// filter passes over them.
+/// Decompresses a .gz in chunks and verifies its checksums and lengths, which libarchive's own
+/// filter ignores.
 class GzipBytes {
  public:
   /// Throws InputError when the file cannot be opened.
   explicit GzipBytes(const std::filesystem::path& path);
   ~GzipBytes();
 
-  /// The next piece, good until the next call; empty at the end. Throws InputError, naming the
-  /// byte, for what is damaged or cut short and for anything behind the end but zeros, with which
-  /// tapes are filled up.
+  /// The next chunk, valid until the next call; empty at the end. Throws InputError, naming the
+  /// byte, for damaged or truncated data and for anything after the end other than zeros, with
+  /// which tapes are padded.
   std::span<const char> Next();
 
  private:

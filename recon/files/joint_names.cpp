@@ -18,7 +18,7 @@ std::string Plain(std::string_view name) {
 }
 
 struct Limb {
-  std::string_view names;  // of the part, separated by spaces
+  std::string_view names;  // of the body part, separated by spaces
   Joint left;
   Joint right;
 };
@@ -45,7 +45,7 @@ constexpr std::pair<std::string_view, Joint> kMiddle[] = {
     {"torso", Joint::kSpine},
     {"shouldercenter", Joint::kShoulderCenter},
     {"spineshoulder", Joint::kShoulderCenter},
-    // Azure Kinect's and ITOP's neck lies where the SDK has its ShoulderCenter, at the neck's base.
+    // The neck of Azure Kinect and ITOP is at its base, the SDK's ShoulderCenter.
     {"neck", Joint::kShoulderCenter},
     {"head", Joint::kHead},
 };
@@ -71,7 +71,7 @@ std::unordered_map<std::string, Joint> MakeNames() {
 
 }  // namespace
 
-std::optional<Joint> JointCalled(std::string_view name) {
+std::optional<Joint> FindJointByName(std::string_view name) {
   static const std::unordered_map<std::string, Joint> kNames = MakeNames();
   const auto found = kNames.find(Plain(name));
   if (found == kNames.end()) return std::nullopt;

@@ -33,9 +33,9 @@ bool IsBodyColumn(std::string_view name) {
   return kNames.contains(PlainName(name));
 }
 
-// --- When, and in which unit.
+// --- Time and length units.
 
-/// From one row to the next, in the file's unit; 0 of a single one.
+/// Median time between rows, in the file's unit; 0 for a single row.
 double MedianStep(const std::vector<TableFrame>& frames) {
   std::vector<double> steps;
   for (size_t m = 1; m < frames.size(); ++m) steps.push_back(frames[m].at - frames[m - 1].at);
@@ -47,11 +47,11 @@ bool AreWhole(const std::vector<TableFrame>& frames) {
                      [](const TableFrame& m) { return m.at == std::floor(m.at); });
 }
 
-/// Seconds of the unit in which rows say when they were.
+/// Seconds per unit of the time column.
 double SecondsPerUnit(const RowClock& clock, const std::vector<TableFrame>& frames, double frame_s,
                       SkeletonSequence& sequence) {
-  // By hand: nobody records less than a frame in two seconds; whole numbers that grow by one or two
-  // are frames'.
+  // By hand: nobody records less than one frame in two seconds; integers that grow by one or two
+  // are frame numbers.
   constexpr double kLongestStep_s = 2.0, kLongestFrames = 2.0, kSecondsPerMillisecond = 1e-3;
   const double step = MedianStep(frames);
   const bool are_frames = !clock.is_stated && AreWhole(frames) && step <= kLongestFrames;
@@ -70,7 +70,7 @@ double SecondsPerUnit(const RowClock& clock, const std::vector<TableFrame>& fram
   return kSecondsPerMillisecond;
 }
 
-/// Metres of the file's unit, by the limbs of people whose places are in it.
+/// Metres per unit of the file, derived from the limb lengths.
 double MetresOfUnit(SkeletonSequence& sequence) {
   // By hand: from a toddler's upper arm to a giant's thigh.
   constexpr double kShortest_m = 0.08, kLongest_m = 0.8, kMetresPerCentimetre = 1e-2,
@@ -86,7 +86,7 @@ double MetresOfUnit(SkeletonSequence& sequence) {
     return *limb * unit_m >= kShortest_m && *limb * unit_m < kLongest_m;
   };
   const bool in_cm = is_limb(kMetresPerCentimetre);
-  if (!in_cm && !is_limb(kMetresPerMillimetre)) return 1.0;  // or Read() tells of its people's size
+  if (!in_cm && !is_limb(kMetresPerMillimetre)) return 1.0;  // else Read() warns of the body size
   sequence.warnings.push_back(
       fmt::format("{}: thighs, shins and upper arms are {:.3g} long: they are taken as {}",
                   sequence.source, *limb, in_cm ? "centimetres" : "millimetres"));
@@ -128,7 +128,7 @@ SkeletonFrame MakeTableFrame(const JointTable& table, const TableFrame& row,
   return frame;
 }
 
-// Of people who come and go, those who are not in a frame.
+// Removes people who are not in the frame.
 void LeaveOutAbsent(SkeletonFrame& frame) {
   std::erase_if(frame.bodies, [](const BodyRecord& body) {
     return std::none_of(body.joints.begin(), body.joints.end(),
@@ -152,7 +152,7 @@ RowColumns FindRowColumns(const std::vector<std::string>& names) {
   for (size_t c = 0; c < names.size(); ++c) {
     if (!columns.body && IsBodyColumn(names[c])) columns.body = c;
     const auto clock = ClockCalled(names[c]);
-    // Times say more than frames.
+    // Times are more informative than frame numbers.
     const bool is_better = columns.time.counts_frames && clock && !clock->counts_frames;
     if (!clock || (columns.clock && !is_better)) continue;
     columns.clock = c;
@@ -181,7 +181,7 @@ void JointTable::Add(const TextLines& lines, const std::string& label,
   if (!named_.insert(number).second) {
     lines.Fail("each joint once a frame (of several people a column 'body' says whose)", label);
   }
-  // As the Kinect SDK, programs write the origin for what they have not seen.
+  // Like the Kinect SDK, programs write the origin for joints that were not seen.
   if (place && !place->isZero(0.0)) frames_.back().seen.push_back({number, *place, confidence});
 }
 
@@ -199,9 +199,9 @@ SkeletonSequence MakeSequence(const SkeletonInput& input, const JointTable& tabl
     if (columns.body) LeaveOutAbsent(frame);
     sequence.frames.push_back(std::move(frame));
   }
-  TakeOutNobody(sequence);
+  RemoveEmptyBodies(sequence);
   Scale(sequence, MetresOfUnit(sequence));
-  BringUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
+  RotateUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
   return sequence;
 }
 

@@ -10,23 +10,23 @@
 
 namespace ossa::recon {
 
-/// Small letters and digits alone: "Time [ms]" is "timems".
+/// Lower-case letters and digits only: "Time [ms]" becomes "timems".
 std::string PlainName(std::string_view name);
 
-/// What tells when a row was.
+/// The time column of a row: times or frame numbers.
 struct RowClock {
   bool counts_frames = false;
-  std::optional<double> s_per_unit;  // of one that does not; none: not stated
-  bool is_stated = true;             // by a header
+  std::optional<double> s_per_unit;  // if these are times; none: not stated
+  bool is_stated = true;             // whether a header states it
 };
 
-/// Where the columns are that are not a joint's.
+/// Indices of the columns that are not joints.
 struct RowColumns {
   std::optional<size_t> clock, body;
   RowClock time{};
 };
 
-/// By the names of a header.
+/// Finds them by the names in a header.
 RowColumns FindRowColumns(const std::vector<std::string>& names);
 
 /// A joint that was seen.
@@ -36,19 +36,20 @@ struct NamedPoint {
   std::optional<double> confidence;
 };
 
-/// The joints that stand together at one frame or time.
+/// The joints of one frame or time.
 struct TableFrame {
   double at = 0.0;
   std::vector<NamedPoint> seen;
 };
 
-/// Joints by name, frame by frame, as a table's rows bring them.
+/// Collects named joints, frame by frame, from the rows of a table.
 class JointTable {
  public:
-  /// Rows come in order, and several of one frame or time after each other: throws with the line.
+  /// Starts a row. Rows must be in order of time; several rows of one frame must be consecutive.
+  /// Throws with the line.
   void Begin(const TextLines& lines, double at);
-  /// A joint of the row begun last; without a place it was not seen. Throws with the line where
-  /// that frame has it already.
+  /// Adds a joint to the current row; without a position it was not seen. Throws with the line if
+  /// the frame already has that joint.
   void Add(const TextLines& lines, const std::string& label,
            const std::optional<Eigen::Vector3d>& place, std::optional<double> confidence);
 
@@ -59,11 +60,11 @@ class JointTable {
   std::vector<std::string> labels_;
   std::map<std::string, size_t> numbers_;
   std::vector<TableFrame> frames_;
-  std::set<size_t> named_;  // in the last frame, seen or not
+  std::set<size_t> named_;  // joints named in the last frame, seen or not
 };
 
-/// The people of a table, metres, at their times; what was assumed of the unit and of times is in
-/// the warnings. Throws InputError of a table without rows or without a known name.
+/// The people of a table, in metres and seconds. Assumptions about units and times are in the
+/// warnings. Throws InputError for a table without rows or without a known joint name.
 SkeletonSequence MakeSequence(const SkeletonInput& input, const JointTable& table,
                               const RowColumns& columns);
 

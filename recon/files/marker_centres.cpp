@@ -8,7 +8,7 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: from a marker to the centre of its joint, by hand.
+// Constants: distances from a marker to its joint centre, by hand.
 
 using Point = std::optional<Eigen::Vector3d>;
 
@@ -22,8 +22,9 @@ Point Between(const Point& a, const Point& b) {
   return Eigen::Vector3d((*a + *b) / 2);
 }
 
-// Plug-in Gait's chord: the centre lies `width` from the marker, square to the line to the proximal
-// centre, in the plane of proximal centre, marker and a third point that lies on the outer side.
+// Plug-in Gait's chord function: the centre is `width` away from the marker, perpendicular to the
+// line to the proximal centre, in the plane of proximal centre, marker and a third point on the
+// outer side.
 Point Chord(const Point& proximal, const Point& marker, const Point& outer, double width_m) {
   if (!proximal || !marker || !outer) return std::nullopt;
   const Eigen::Vector3d line = *marker - *proximal;
@@ -33,7 +34,8 @@ Point Chord(const Point& proximal, const Point& marker, const Point& outer, doub
   Eigen::Vector3d out = *outer - *proximal;
   out -= out.dot(axis) * axis;
   if (out.norm() < 1e-6) return std::nullopt;
-  // Right angle at the centre: its distances to both ends are sqrt(l^2 - w^2) and w.
+  // The angle at the centre is a right one; its distances to the two ends are sqrt(l^2 - w^2) and
+  // w.
   const double along_m = (length_m * length_m - width_m * width_m) / length_m;
   const double aside_m = width_m * std::sqrt(length_m * length_m - width_m * width_m) / length_m;
   return Eigen::Vector3d(*proximal + along_m * axis - aside_m * out.normalized());
@@ -44,8 +46,8 @@ struct Hips {
   Point right;
 };
 
-// Bell et al. 1990: of the distance between the ASIS, 36 % inwards (14 % from each ASIS), 19 % back
-// and 30 % down.
+// Bell et al. 1990, as shares of the distance between the ASIS: 36 % inwards from the middle (14 %
+// from each ASIS), 19 % back and 30 % down.
 Hips HipCentres(const Markers& markers) {
   const Point left = Marker(markers, "LASI");
   const Point right = Marker(markers, "RASI");
@@ -82,7 +84,7 @@ constexpr Side kSides[] = {
 
 void PutSide(BodyRecord& body, const Markers& markers, const Side& side, const Point& hip,
              const Point& trunk_down) {
-  // By hand: what laboratories enter for adults, half a joint's width and half a marker's.
+  // By hand: typical laboratory values for adults, half the joint width plus half a marker.
   constexpr double kShoulder_m = 0.050;
   constexpr double kElbow_m = 0.047;
   constexpr double kKnee_m = 0.057;
@@ -93,8 +95,8 @@ void PutSide(BodyRecord& body, const Markers& markers, const Side& side, const P
   Point shoulder = marker("SHO");
   if (shoulder && trunk_down) *shoulder += kShoulder_m * *trunk_down;
   const Point wrist = Between(marker("WRA"), marker("WRB"));
-  // The elbow's outer side is taken to be away from the body's middle; there is no third marker
-  // that says it, whatever the arm does.
+  // The outer side of the elbow is assumed to be away from the middle of the body: no third marker
+  // determines it.
   const Point middle = Between(Marker(markers, "CLAV"), Marker(markers, "C7"));
   Point outer = marker("ELB");
   if (outer && shoulder && middle) *outer += *shoulder - *middle;

@@ -11,48 +11,50 @@
 
 namespace ossa::recon {
 
-/// A time in which somebody was somewhere: formats of points keep who is not seen as a body without
-/// a joint.
-struct Stay {
+/// An interval in which a person has at least one joint. Point formats represent an unseen person
+/// as a body without joints.
+struct PresenceInterval {
   double from_s = 0.0;
-  std::optional<double> gone_s;  // of the first frame without them; none: here to the end
+  std::optional<double> end_s;  // first frame without the person; none: present to the end
 };
 
-/// Everybody's sightings of a recording, for formats whose head needs all of it.
+/// The sightings of all people of a recording, for formats whose header depends on the whole
+/// recording.
 class PeopleLog {
  public:
-  /// `folder`: on whose disk most of it is.
+  /// `folder`: its disk holds the bulk of the data.
   explicit PeopleLog(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Throws DiskFull.
   void Append(const SkeletonFrame& frame);
 
-  /// Those who were somewhere, as they appeared: of a body that has no joint in any frame a posture
-  /// would be made up.
+  /// Ids in order of appearance. Bodies without a joint in any frame are left out: their postures
+  /// would be invented.
   const std::vector<int>& ids() const { return ids_; }
-  /// The first frame's time, whoever is in it; of a recording that goes back, a person's first.
+  /// Start time of a person's file: that of the first frame of the recording; of a recording whose
+  /// times run backwards, the person's first.
   double BeginFor(int id) const;
-  const std::vector<Stay>& StaysOf(int id) const { return stays_.at(id); }
+  const std::vector<PresenceInterval>& StaysOf(int id) const { return presence_.at(id); }
   int64_t frame_count() const { return static_cast<int64_t>(times_s_.size()); }
-  /// The log of the first so many frames, one at least, in memory.
+  /// The log of the first `frames` frames, at least one, in memory.
   PeopleLog First(int64_t frames) const;
-  /// Takes all into memory: what it took on the disk is free.
-  void LeaveDisk();
+  /// Moves everything into memory and frees the disk space.
+  void LoadIntoMemory();
   const SightingLog& SightingsOf(int id) const { return seen_.at(id); }
 
  private:
-  void NoteStays(const SkeletonFrame& frame);
-  std::vector<Stay> StaysUntil(int id, double end_s) const;
+  void UpdatePresence(const SkeletonFrame& frame);
+  std::vector<PresenceInterval> PresenceUntil(int id, double end_s) const;
 
   std::filesystem::path folder_;
-  std::vector<double> times_s_;  // of the frames
+  std::vector<double> times_s_;  // frame times
   std::vector<int> ids_;
   std::map<int, SightingLog> seen_;
-  std::map<int, std::vector<Stay>> stays_;
+  std::map<int, std::vector<PresenceInterval>> presence_;
 };
 
-/// After a full disk: what `write` makes of the first frames, of as many as fit, within a quarter.
-/// Returns how many; 0: it made nothing.
+/// After a full disk: calls `write` with the first frames, as many as fit, to within a quarter.
+/// Returns their number; 0: nothing was written.
 int64_t WriteWhatFits(PeopleLog& people, const std::function<void(const PeopleLog&)>& write);
 
 }  // namespace ossa::recon

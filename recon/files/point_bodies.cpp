@@ -21,7 +21,7 @@ namespace {
 struct Subject {
   std::string name;
   std::vector<size_t> points;
-  std::vector<std::string> labels;  // without the subject's name
+  std::vector<std::string> labels;  // without the subject prefix
 };
 
 std::vector<Subject> GroupBySubject(const std::vector<std::string>& labels) {
@@ -42,8 +42,8 @@ std::vector<Subject> GroupBySubject(const std::vector<std::string>& labels) {
   return subjects;
 }
 
-/// The points that a line of a mapping names: "LKNE + LKNEM" is the middle of two. Empty when the
-/// subject lacks one.
+/// The points named by a mapping line: "LKNE + LKNEM" is the middle of two. Empty if the subject
+/// lacks one of them.
 std::vector<size_t> FindNamed(const Subject& subject, std::string_view names) {
   constexpr std::string_view kAnd = " + ";
   std::vector<size_t> points;
@@ -71,7 +71,7 @@ PointBody FindMapped(const Subject& subject, const BoneMapping& mapping, const L
   for (const MappingLine& line : mapping.lines) {
     const std::vector<size_t> points = FindNamed(subject, line.joint);
     if (points.empty() && missing == nullptr) missing = &line;
-    // Bones whose near end is no joint of ours, as collars, are for mocap.
+    // Bones that start at none of our joints, such as collars, are used for mocap only.
     const auto joint = FindJointOfBone(line.bone);
     if (joint) body.points[Index(*joint)] = points;
   }
@@ -81,26 +81,27 @@ PointBody FindMapped(const Subject& subject, const BoneMapping& mapping, const L
   return body;
 }
 
-// LSHO, LELB, ... are markers on the skin: joint centres are worked out from all of them.
+// Whether the label is a marker on the skin (LSHO, LELB, ...); joint centres are computed from all
+// of them.
 bool IsSkinMarker(const std::string& label) {
   return label.size() == 4 && (label.ends_with("SHO") || label.ends_with("ELB") ||
                                label.ends_with("KNE") || label.ends_with("ANK"));
 }
 
-// SDK 2 has Neck above SpineShoulder, and before it: only where no other point is at the neck's
-// base, its own stands for that.
+// SDK 2 lists Neck, which is above SpineShoulder, before it. Its neck is our ShoulderCenter only if
+// no other point is at the base of the neck.
 bool IsNeckAboveItsBase(const Subject& subject, const std::string& label) {
   if (Lower(label) != "neck") return false;
   return std::any_of(subject.labels.begin(), subject.labels.end(), [](const std::string& other) {
-    return Lower(other) != "neck" && JointCalled(other) == Joint::kShoulderCenter;
+    return Lower(other) != "neck" && FindJointByName(other) == Joint::kShoulderCenter;
   });
 }
 
-// Of several points of one joint the first; the labels of others go to `others`.
+// Takes the first of several points of one joint; the labels of the others go to `others`.
 PointBody FindJointsByName(const Subject& subject, bool skin, std::vector<std::string>& others) {
   PointBody body;
   for (size_t p = 0; p < subject.points.size(); ++p) {
-    const auto joint = JointCalled(subject.labels[p]);
+    const auto joint = FindJointByName(subject.labels[p]);
     if (!joint || IsSkinMarker(subject.labels[p]) != skin) continue;
     if (IsNeckAboveItsBase(subject, subject.labels[p])) continue;
     auto& points = body.points[Index(*joint)];
@@ -145,7 +146,7 @@ std::string ListLabels(const std::vector<std::string>& labels) {
   return named == 0 ? "none" : list;
 }
 
-// A handful of joints among many markers: somebody may believe that all were read.
+// Warns if only a few joints are known among many markers: users may believe that all were read.
 void WarnOfUnknown(const std::vector<PointBody>& bodies, const std::vector<std::string>& labels,
                    const LabelPlace& place, std::vector<std::string>& warnings) {
   constexpr size_t kFew = 6;  // by hand: a limb or two
@@ -161,7 +162,7 @@ void WarnOfUnknown(const std::vector<PointBody>& bodies, const std::vector<std::
                   place.file, place.place, known, ListLabels(labels), labels.back()));
 }
 
-// Which of two points was read, nothing else tells.
+// Warns of duplicate points of a joint: nothing else shows which one was read.
 void WarnOfOthers(const std::vector<std::string>& others, const LabelPlace& place,
                   std::vector<std::string>& warnings) {
   if (others.empty()) return;
@@ -193,7 +194,7 @@ BodyRecord MakeBody(const PointBody& body, const std::vector<SeenPoint>& points)
   return made;
 }
 
-/// The first of the joints that was seen, or the middle of the two.
+/// The first of `joints` that was seen, else the middle of `left` and `right`.
 SeenPoint FindAnyOf(const BodyRecord& body, std::initializer_list<Joint> joints, Joint left,
                     Joint right) {
   for (const Joint joint : joints) {
@@ -204,7 +205,7 @@ SeenPoint FindAnyOf(const BodyRecord& body, std::initializer_list<Joint> joints,
   return Eigen::Vector3d((one->position_m + other->position_m) / 2);
 }
 
-/// Up the trunk, of everybody in all frames, of length 1 where all agree; 0 where nobody's is seen.
+/// Mean trunk direction of all people in all frames: length 1 if all agree; 0 if no trunk is seen.
 Eigen::Vector3d ComputeMeanTrunk(const SkeletonSequence& sequence) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   size_t seen = 0;
@@ -232,7 +233,7 @@ void ForEachPlace(Sequence& sequence, Use use) {
   }
 }
 
-/// Whether the lowest joint is where the soles' floor at 0 has it.
+/// Whether the lowest joint is at standing height over a floor at 0.
 bool HasFloorAt0(const SkeletonSequence& sequence, const Eigen::Vector3d& up) {
   constexpr double kThrough_m = -0.05, kHigh_m = 0.25;  // by hand: standing ankles are at 0.1 m
   double lowest_m = std::numeric_limits<double>::infinity();
@@ -280,13 +281,13 @@ SkeletonFrame MakeFrame(const std::vector<PointBody>& bodies, const std::vector<
   return frame;
 }
 
-void BringUpright(SkeletonSequence& sequence, const OtherUp& other) {
+void RotateUpright(SkeletonSequence& sequence, const AlternativeUpAxis& other) {
   const Eigen::Vector3d y = Eigen::Vector3d::UnitY(), trunk = ComputeMeanTrunk(sequence);
-  if (DoesStand(trunk, y)) return;
-  const bool shows = DoesStand(trunk, other.axis) && HasFloorAt0(sequence, other.axis) &&
+  if (IsUpright(trunk, y)) return;
+  const bool shows = IsUpright(trunk, other.axis) && HasFloorAt0(sequence, other.axis) &&
                      !HasFloorAt0(sequence, y);
   if (!other.is_in_file && !shows) {
-    const std::string doubt = DoubtOfUp(sequence.source, trunk, y);
+    const std::string doubt = DescribeUpDoubt(sequence.source, trunk, y);
     if (!doubt.empty()) sequence.warnings.push_back(doubt);
     return;
   }

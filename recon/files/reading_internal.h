@@ -9,19 +9,19 @@
 
 namespace ossa::recon {
 
-/// One reading of a file, a folder or an archive: how, and how far it is.
+/// State of reading a file, folder or archive: options and progress.
 struct Reading {
   const SkeletonReadOptions& options;
-  std::string columns;        // as Columns() says
-  uint64_t done = 0, of = 0;  // bytes, as they lie on the disk
+  std::string columns;        // result of Columns()
+  uint64_t done = 0, of = 0;  // bytes on disk
 
-  /// Tells whoever waits that so many more than `done` are read.
+  /// Reports progress: `more` bytes beyond `done` were read.
   void Tell(uint64_t more) const {
     if (options.progress) options.progress(std::min(done + more, of), of);
   }
 };
 
-/// Tells how much of a file was read, whenever more of it is.
+/// A file buffer that reports progress as it is read.
 class WatchedFile final : public std::filebuf {
  public:
   WatchedFile(const std::filesystem::path& path, const Reading& reading) : reading_(reading) {
@@ -38,7 +38,7 @@ class WatchedFile final : public std::filebuf {
 
  private:
   const Reading& reading_;
-  uint64_t taken_ = 0;  // with what was looked at before, to tell the format
+  uint64_t taken_ = 0;  // includes the bytes read to detect the format
 };
 
 }  // namespace ossa::recon

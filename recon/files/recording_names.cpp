@@ -19,7 +19,7 @@ std::string WithoutExtension(std::string name) {
   return name;
 }
 
-// What a recording may be called, with and without the extensions.
+// The names of a recording, with and without extensions.
 std::vector<std::string> ListNames(const RecordingPlace& place) {
   const auto& [file, member] = place;
   if (file.empty()) return {member, WithoutExtension(member)};
@@ -58,7 +58,7 @@ std::vector<RecordingPlace> Matching(const std::vector<RecordingPlace>& places,
 
 }  // namespace
 
-bool IsPassedOver(const std::filesystem::path& path) {
+bool IsIgnoredFile(const std::filesystem::path& path) {
   static const std::set<std::string> kOther = {".md", ".png", ".jpg", ".mp4", ".avi", ".html",
                                                ".py", ".m",   ".pdf", ".yml", ".toml"};
   const std::string name = path.filename().string();
@@ -81,8 +81,8 @@ std::vector<std::string> ClipNames(const std::vector<std::string>& files) {
   return names;
 }
 
-std::vector<RecordingPlace> AskedFor(const std::vector<RecordingPlace>& places,
-                                     const std::string& name) {
+std::vector<RecordingPlace> SelectRecordings(const std::vector<RecordingPlace>& places,
+                                             const std::string& name) {
   if (name.empty()) return places;
   for (const Match matches : {IsIt, HasItWhole, HasIt}) {
     auto found = Matching(places, name, matches);
@@ -91,8 +91,8 @@ std::vector<RecordingPlace> AskedFor(const std::vector<RecordingPlace>& places,
   return {};
 }
 
-std::vector<RecordingPlace> ExactlyNamed(const std::vector<RecordingPlace>& places,
-                                         const std::string& name) {
+std::vector<RecordingPlace> SelectExactNames(const std::vector<RecordingPlace>& places,
+                                             const std::string& name) {
   return Matching(places, name, IsIt);
 }
 

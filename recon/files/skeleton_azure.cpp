@@ -57,7 +57,7 @@ Json Parsed(SkeletonInput& input) {
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
-    // The parser's message names the byte; of its text only the part up to the line's end is told.
+    // The parser's message names the byte; only its first line is reported.
     const std::string reason = error.what();
     const size_t at = reason.find("line ");
     const size_t end = reason.find(':', at == std::string::npos ? 0 : at);
@@ -102,7 +102,7 @@ SkeletonSequence ReadAzure(SkeletonInput& input) {
   if (!names.is_array()) Fail(input, "joint_names", "a list of names");
   for (const Json& name : names) {
     if (!name.is_string()) Fail(input, "joint_names", "a list of names");
-    joints.push_back(JointCalled(name.get<std::string>()));
+    joints.push_back(FindJointByName(name.get<std::string>()));
   }
   const Json& frames = Need(input, json, "frames", "the recording");
   if (!frames.is_array()) Fail(input, "frames", "a list");

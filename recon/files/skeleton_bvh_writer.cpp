@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The head holds the bones' lengths, medians over all frames: files are made at the end.
+// The header holds median bone lengths over all frames, so files are written at the end.
 class BvhWriter final : public SkeletonWriter::Format {
  public:
   BvhWriter(fs::path path, BvhNames names) : path_(std::move(path)), people_(FolderOf(path_)) {
@@ -21,7 +21,7 @@ class BvhWriter final : public SkeletonWriter::Format {
   void Write(const SkeletonFrame& frame) override { people_.Append(frame); }
 
   void Finish() override {
-    ExpectSomebody(people_, path_);
+    RequirePeople(people_, path_);
     WriteFiles(people_);
   }
 
@@ -30,7 +30,7 @@ class BvhWriter final : public SkeletonWriter::Format {
   }
 
  private:
-  /// All or none: of those before the one that does not fit none stays.
+  /// All or none: if one file does not fit, the earlier ones are removed.
   void WriteFiles(const PeopleLog& people) {
     const std::vector<int>& ids = people.ids();
     for (size_t i = 0; i < ids.size(); ++i) {
@@ -51,7 +51,7 @@ class BvhWriter final : public SkeletonWriter::Format {
 
 }  // namespace
 
-void ExpectSomebody(const PeopleLog& people, const fs::path& path) {
+void RequirePeople(const PeopleLog& people, const fs::path& path) {
   if (!people.ids().empty()) return;
   throw InputError(path.string() + ": expected somebody whose motion a " +
                    path.extension().string() +

@@ -1,6 +1,7 @@
-// C3D (c3d.org): points of the 3D data section, integers or floats as Intel, DEC and MIPS
-// processors have them. No Debian package reads C3D, hence these pages. Labels that name joints are
-// taken as they are; else Plug-in Gait markers give joint centres. Laboratories have z up.
+// C3D (c3d.org): points of the 3D data section, as integers or floats in the formats of Intel, DEC
+// and MIPS processors. Debian has no package that reads C3D. Labels that name joints are used
+// directly; otherwise joint centres are computed from Plug-in Gait markers. Laboratories use z as
+// the up axis.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,17 +20,17 @@ namespace {
 // Constants: of the C3D format.
 
 constexpr size_t kBlock = 512;
-constexpr size_t kLastByHeader = 65535;  // the header counts in 16 bits
+constexpr size_t kLastByHeader = 65535;  // the header's frame numbers have 16 bits
 
 struct C3d {
   size_t points = 0;
-  size_t first = 0;  // by the header
+  size_t first = 0;  // first frame number in the header
   size_t last = 0;
   size_t frames = 0;
-  size_t words_per_frame = 0;  // of points and analog samples
+  size_t words_per_frame = 0;  // points and analog samples
   double scale = 1;
   bool floats = false;
-  size_t data = 0;  // byte where the frames begin
+  size_t data = 0;  // byte offset of the first frame
   double rate_Hz = 0;
   double metres_per_unit = 1e-3;
   std::vector<std::string> labels;
@@ -42,10 +43,10 @@ void NeedBytes(const std::string& name, std::string_view bytes, size_t offset, s
   }
 }
 
-/// Whose numbers the file holds; the values are the format's.
+/// Number format of the file; values by the format.
 enum class Processor { kIntel = 84, kDec = 85, kMips = 86 };
 
-/// The bytes of a file, and numbers in them. The caller has checked that their bytes are there.
+/// The bytes of a file, read as numbers. The caller has checked that enough bytes are there.
 class C3dBytes {
  public:
   C3dBytes(std::string_view bytes, Processor processor) : bytes_(bytes), processor_(processor) {}
@@ -58,7 +59,7 @@ class C3dBytes {
   }
   double Integer(size_t at) const { return static_cast<int16_t>(Word(at)); }
   double Real(size_t at) const {
-    // DEC's floats have their halves exchanged, and an exponent that is larger by two.
+    // DEC floats have their 16-bit halves exchanged, and an exponent that is larger by two.
     const bool high_first = processor_ != Processor::kIntel;
     const uint32_t high = Word(high_first ? at : at + 2), low = Word(high_first ? at + 2 : at);
     const auto value = static_cast<double>(std::bit_cast<float>((high << 16) + low));
@@ -114,10 +115,10 @@ C3d ReadC3dHeader(const std::string& name, const C3dBytes& bytes) {
 
 // A parameter's value.
 struct Parameter {
-  int type = 0;       // -1: texts; else bytes a number, 4 being floats
-  size_t begin = 0;   // byte of the file
+  int type = 0;       // -1: text; else bytes per number, 4 for floats
+  size_t begin = 0;   // byte offset in the file
   size_t size = 0;    // bytes
-  size_t length = 0;  // of each of its texts
+  size_t length = 0;  // length of each text
 };
 using Parameters = std::map<std::string, Parameter>;  // by GROUP:NAME
 
@@ -140,8 +141,8 @@ Parameter ReadParameter(const std::string& name, std::string_view bytes, size_t 
   return parameter;
 }
 
-// Walks the records: name length, group id, name, offset to the next, then for parameters (positive
-// ids) their values. A group may be named after its parameters.
+// Walks the records: name length, group id, name, offset to the next record; parameters (positive
+// ids) then have their values. A group's name may follow its parameters.
 Parameters ReadParameters(const std::string& name, const C3dBytes& numbers) {
   const std::string_view bytes = numbers.all();
   std::map<std::pair<int, std::string>, Parameter> by_id;
@@ -169,8 +170,8 @@ Parameters ReadParameters(const std::string& name, const C3dBytes& numbers) {
   return parameters;
 }
 
-// A number of frames: 16 bits without a sign, twice 16 bits, the lower ones first, or a float; 0
-// where it is none.
+// A frame count: unsigned 16 bits, or two 16-bit words (low first), or a float; 0 if it is none of
+// these.
 size_t ReadFrameCount(const C3dBytes& bytes, const Parameters& parameters, const char* key) {
   const auto found = parameters.find(key);
   if (found == parameters.end()) return 0;
@@ -185,8 +186,8 @@ size_t ReadFrameCount(const C3dBytes& bytes, const Parameters& parameters, const
   return (high << 16) + bytes.Word(said.begin);
 }
 
-// The header's count, unless it ends beyond what the header can say: then the parameters', which
-// programs write for that.
+// The header's count, unless it is saturated: then that of the parameters, which programs write for
+// long recordings.
 size_t CountFrames(const std::string& name, const C3dBytes& bytes, const C3d& c3d,
                    const Parameters& parameters) {
   const auto said = [&](const char* key) { return ReadFrameCount(bytes, parameters, key); };
@@ -199,7 +200,7 @@ size_t CountFrames(const std::string& name, const C3dBytes& bytes, const C3d& c3
   return c3d.last - c3d.first + 1;
 }
 
-// The header's, else the parameters': some programs write it there alone.
+// The rate in the header, else in the parameters: some programs write it only there.
 double ReadRate_Hz(const std::string& name, const C3dBytes& bytes, const C3d& c3d,
                    const Parameters& parameters) {
   const auto is_rate = [](double rate_Hz) { return std::isfinite(rate_Hz) && rate_Hz > 0; };
@@ -216,12 +217,12 @@ std::string_view ReadText(const C3dBytes& bytes, const Parameter& parameter) {
   return bytes.all().substr(parameter.begin, parameter.size);
 }
 
-// Texts of one length: filled with blanks, by some programs with zeros.
-std::string_view WithoutFilling(std::string_view text) {
+// Texts have a fixed length and are padded with blanks, by some programs with zeros.
+std::string_view TrimPadding(std::string_view text) {
   return Trimmed(text.substr(0, text.find('\0')));
 }
 
-// A file of more than 255 points goes on with its labels in LABELS2, LABELS3, ...
+// Files of more than 255 points continue their labels in LABELS2, LABELS3, ...
 void ReadLabels(const std::string& name, const C3dBytes& bytes, const Parameters& parameters,
                 C3d& c3d) {
   for (size_t more = 1; c3d.labels.size() < c3d.points; ++more) {
@@ -231,7 +232,7 @@ void ReadLabels(const std::string& name, const C3dBytes& bytes, const Parameters
     const std::string_view text = ReadText(bytes, labels->second);
     const size_t length = labels->second.length;
     for (size_t at = 0; at + length <= text.size(); at += length) {
-      c3d.labels.emplace_back(WithoutFilling(text.substr(at, length)));
+      c3d.labels.emplace_back(TrimPadding(text.substr(at, length)));
     }
   }
   if (c3d.labels.empty()) FailAtByte(name, kBlock, "the parameter POINT:LABELS");
@@ -242,7 +243,7 @@ void ReadUnits(const std::string& name, const C3dBytes& bytes, const Parameters&
                C3d& c3d) {
   const auto units = parameters.find("POINT:UNITS");
   if (units == parameters.end()) return;
-  const std::string_view unit = WithoutFilling(ReadText(bytes, units->second));
+  const std::string_view unit = TrimPadding(ReadText(bytes, units->second));
   if (unit.empty()) return;
   const auto metres = MetresPerUnit(unit);
   if (!metres) {
@@ -251,15 +252,15 @@ void ReadUnits(const std::string& name, const C3dBytes& bytes, const Parameters&
   c3d.metres_per_unit = *metres;
 }
 
-// Which axis goes up a screen; not everybody means by it what is up.
-bool SaysYUp(const C3dBytes& bytes, const Parameters& parameters) {
+// Whether Y_SCREEN says that y points up the screen. Not all programs mean the vertical by it.
+bool StatesYUp(const C3dBytes& bytes, const Parameters& parameters) {
   const auto screen = parameters.find("POINT:Y_SCREEN");
   if (screen == parameters.end()) return false;
-  const std::string_view axis = WithoutFilling(ReadText(bytes, screen->second));
+  const std::string_view axis = TrimPadding(ReadText(bytes, screen->second));
   return axis == "+Y" || axis == "Y";
 }
 
-// A negative fourth word says that the point was not seen; so do NaN and the origin.
+// A negative fourth word means that the point was not seen; so do NaN and the origin.
 SeenPoint ReadPoint(const std::string& name, const C3dBytes& bytes, const C3d& c3d, size_t at) {
   std::array<double, 4> v{};
   for (size_t i = 0; i < 4; ++i) {
@@ -295,9 +296,9 @@ SkeletonSequence ReadC3d(SkeletonInput& input) {
     }
     sequence.frames.push_back(MakeFrame(bodies, points, f, static_cast<double>(f) * step_s));
   }
-  TakeOutNobody(sequence);
-  // The file's y, as ReadPoint has it.
-  BringUpright(sequence, {'y', -Eigen::Vector3d::UnitZ(), SaysYUp(bytes, parameters)});
+  RemoveEmptyBodies(sequence);
+  // The file's y axis in the coordinates of ReadPoint.
+  RotateUpright(sequence, {'y', -Eigen::Vector3d::UnitZ(), StatesYUp(bytes, parameters)});
   return sequence;
 }
 

@@ -68,14 +68,14 @@ std::optional<JointRecord> JointIn(const TextLines& lines, const std::string* fi
 }
 
 std::string FormatRowStart(const SkeletonFrame& frame) {
-  constexpr int kDigits = 7;  // as in JSONL: of seconds since 1970 no step is lost
+  constexpr int kDigits = 7;  // as in JSONL: enough for seconds since 1970
   std::string row = std::to_string(frame.frame) + ",";
   AppendFixed(row, frame.time_s, kDigits);
   row.push_back(',');
   return row;
 }
 
-// The row's body, or none.
+// The body of a row; none if the row has none.
 std::optional<BodyRecord> BodyIn(const TextLines& lines, const std::vector<std::string>& fields) {
   if (fields[2].empty()) return std::nullopt;
   BodyRecord body;
@@ -86,8 +86,8 @@ std::optional<BodyRecord> BodyIn(const TextLines& lines, const std::vector<std::
   return body;
 }
 
-// Whether a row's body is one more of the frame before it. Frame numbers may stand still, as in a
-// JSONL whose "frame" is always 0, and so may times.
+// Whether a row continues the previous frame with another body. Frame numbers and times may repeat,
+// as in a JSONL whose "frame" is always 0.
 bool BelongsTo(const SkeletonFrame& frame, int64_t number, double time_s,
                const std::optional<BodyRecord>& body) {
   return frame.frame == number && frame.time_s == time_s && body && !frame.bodies.empty() &&
@@ -122,7 +122,7 @@ SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {
   RowTimes times;
   while (lines.NextFilled()) {
     const std::vector<std::string> fields = csv.SplitRow(lines.line(), kColumns);
-    // Separators alone are what spreadsheets leave of rows that were emptied.
+    // Spreadsheets leave rows of separators where rows were cleared.
     if (std::all_of(fields.begin(), fields.end(), [](const auto& f) { return f.empty(); })) {
       continue;
     }

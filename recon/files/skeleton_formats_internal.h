@@ -14,18 +14,18 @@
 
 namespace ossa::recon {
 
-/// From frame to frame where a file of a Kinect SDK states no times: 30 Hz, that SDK's rate.
+/// Frame time of Kinect SDK files that state no times: 30 Hz, that SDK's rate.
 inline constexpr double kKinectStep_s = 1.0 / 30.0;
 
-/// What a reader of one format is given.
+/// Input of a format's reader.
 struct SkeletonInput {
   std::istream& stream;
-  std::string name;      // of the file, for messages
+  std::string name;      // of the file; for messages
   std::string columns;   // SkeletonReadOptions::columns, "truth", "observed" or ""
-  double frame_s = 0.0;  // 0: the format's own usual rate
-  /// The text of another file of the same recording, by its whole name; empty when there is none.
+  double frame_s = 0.0;  // frame time to assume; 0: the format's default
+  /// The text of another file of the same recording, by its full name; empty if there is none.
   std::function<std::optional<std::string>(const std::string& name)> sibling;
-  const BoneMapping* mapping = nullptr;  // of names, where one was given
+  const BoneMapping* mapping = nullptr;  // joint names of a mapping file, if one was given
 
   double FrameTime_s(double usual_s) const { return frame_s > 0 ? frame_s : usual_s; }
 };
@@ -34,8 +34,8 @@ struct SkeletonInput {
 struct SkeletonSample {
   std::string_view name;  // of the file
   std::string_view head;  // its first 64 KiB at most
-  /// The first filled lines of the head, without line ends; a last line that may be cut is left out
-  /// unless it is the only one.
+  /// The first non-blank lines of the head, without line ends. A last line that may be truncated is
+  /// left out, unless it is the only one.
   std::vector<std::string_view> lines;
 };
 
@@ -45,7 +45,7 @@ struct SkeletonFormat {
   SkeletonSequence (*read)(SkeletonInput&);
 };
 
-/// Every format, in the order in which they are tried: the ones with unmistakable marks first.
+/// All formats in the order in which they are tried: unambiguous ones first.
 std::span<const SkeletonFormat> AllSkeletonFormats();
 
 // Formats by the file they are written in.
@@ -59,12 +59,13 @@ std::span<const SkeletonFormat> C3dFormats();          // skeleton_c3d.cpp
 std::span<const SkeletonFormat> StreamSaverFormats();  // skeleton_stream_saver.cpp
 std::span<const SkeletonFormat> TableFormats();        // skeleton_tables.cpp
 
-/// The file of times that Kinect Stream Saver writes beside its joints: no recording of its own.
+/// The file of times that Kinect Stream Saver writes beside its joints; not a recording itself.
 inline constexpr const char* kSaverTimes = "liTimeStamp.binary";
-/// UI-PRMD's joint angles, which are read together with the positions they belong to.
+/// Whether this is one of UI-PRMD's joint angle files, which are read together with their
+/// positions.
 bool HoldsAngles(std::string_view name);
 
-/// Puts a joint into a body unless the position is the "no reading" of its format.
+/// Adds a joint to a body, unless the position is the format's "no reading".
 inline void PutJoint(BodyRecord& body, Joint joint, const Eigen::Vector3d& position_m,
                      std::optional<TrackingState> state = std::nullopt) {
   JointRecord record;
@@ -83,23 +84,23 @@ inline SkeletonFrame OneBodyFrame(size_t index, double time_s, BodyRecord body) 
   return frame;
 }
 
-/// Of formats whose frames hold a body whatever was seen: in a recording of which no frame has a
-/// joint there is nobody. (Of somebody who is lost for a while the body stays, without joints.)
-void TakeOutNobody(SkeletonSequence& sequence);
+/// For formats whose frames hold a body even if nothing was seen: removes the bodies of a recording
+/// in which no frame has a joint. (A person who is lost for a while stays, without joints.)
+void RemoveEmptyBodies(SkeletonSequence& sequence);
 
 /// Throws unless the sequence has frames: an empty file is never a silent success.
 void RequireFrames(const SkeletonSequence& sequence);
 
-/// How our own formats say a TrackingState, by its value.
+/// Names of TrackingState in our own formats, by value.
 inline constexpr std::array<std::string_view, 3> kStateNames = {"not_tracked", "inferred",
                                                                 "tracked"};
-/// The state of that name; none of another.
+/// The state of that name; none for an unknown name.
 std::optional<TrackingState> FindState(std::string_view name);
 
 // Our own formats beside JSONL.
 SkeletonSequence ReadSkeletonCsv(SkeletonInput& input);
 std::string SkeletonCsvHead();
-/// A row a body; a frame with nobody has one, too.
+/// One row per body; a frame without bodies has one row, too.
 std::string SkeletonCsvRows(const SkeletonFrame& frame);
 SkeletonSequence ReadTrc(SkeletonInput& input);
 

@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 constexpr std::array<HumanBone, 2> kHands = {HumanBone::kLeftHand, HumanBone::kRightHand};
 constexpr std::array<Joint, 2> kHandEnds = {Joint::kHandLeft, Joint::kHandRight};
 
-/// The joint that a node of a person lies at.
+/// The joint at a node's position.
 Joint JointOf(size_t node) {
   return node < kHumanBoneCount ? kHumanBones[node].place : kHandEnds[node - kHumanBoneCount];
 }
@@ -34,13 +34,13 @@ int ParentOfNode(size_t node) {
                                 : static_cast<int>(Index(kHands[node - kHumanBoneCount]));
 }
 
-/// Whether a bone of ours turns the node; others are carried along.
+/// Whether the orientation of one of our bones drives the node; other nodes follow their parent.
 bool IsTurned(size_t node) {
   if (node >= kHumanBoneCount) return false;
   return kHumanBones[node].parent < 0 || kHumanBones[node].place != kHumanBones[node].turner;
 }
 
-/// A T-pose of bones alone, that stands on y = 0.
+/// A T-pose of the skeleton, standing on y = 0.
 Posture BuildStandingTPose(const BoneLengths& lengths_m) {
   Posture rest = BuildTPose(lengths_m);
   const Vector3d up_m = -rest[Joint::kFootLeft].y() * Vector3d::UnitY();
@@ -59,7 +59,7 @@ std::vector<RestNode> BuildRestNodes(const Posture& rest, BvhNames names) {
   return nodes;
 }
 
-/// From postures to the turns and places of a person's nodes.
+/// Converts postures to the rotations and translations of a person's nodes.
 class NodeMotion {
  public:
   explicit NodeMotion(const Posture& rest) {
@@ -67,7 +67,7 @@ class NodeMotion {
       const size_t j = Index(kHumanBones[b].turner);
       rest_from_joint_[b] = RestOrientations()[j].conjugate();
       if (j == 0) continue;
-      // A bone of ours points along its axis at rest; the node's points as the person stands.
+      // Our bones point along their y axis at rest; a node's bone points as in the T-pose.
       const Vector3d along = rest.position_m[j] - rest.position_m[ParentOf(j)];
       rest_from_joint_[b] =
           rest_from_joint_[b] * SmallestTurn(TPoseDirection(j), along).conjugate();
@@ -101,7 +101,8 @@ class NodeMotion {
       tracks_.translation_m[node].push_back(static_cast<float>(x));
     }
   }
-  // Of the two quaternions of a turn the one nearer to the last: readers go the way between keys.
+  // Of the two quaternions of a rotation, takes the one nearer to the last: readers interpolate
+  // between keyframes.
   void AddTurn(size_t node, const Quaterniond& turn) {
     std::vector<float>& keys = tracks_.rotation[node];
     Eigen::Vector4f key = turn.normalized().coeffs().cast<float>();
@@ -115,21 +116,21 @@ class NodeMotion {
   PersonTracks tracks_;
 };
 
-/// When somebody is there, from `begin_s` on; nothing of who always is.
-void AddPresence(const std::vector<Stay>& stays, double begin_s, PersonTracks& tracks) {
+/// Adds a person's visibility from `begin_s` on; nothing for a person who is always visible.
+void AddPresence(const std::vector<PresenceInterval>& stays, double begin_s, PersonTracks& tracks) {
   const auto add = [&](double time_s, float here) {
     const auto key_s = static_cast<float>(time_s - begin_s);
     if (!tracks.presence_s.empty() && !(key_s > tracks.presence_s.back())) {
-      tracks.presence.back() = here;  // shorter than times are told apart
+      tracks.presence.back() = here;  // interval shorter than the resolution of times
       return;
     }
     tracks.presence_s.push_back(key_s);
     tracks.presence.push_back(here);
   };
   if (stays.front().from_s > begin_s) add(begin_s, 0.0F);
-  for (const Stay& stay : stays) {
+  for (const PresenceInterval& stay : stays) {
     add(stay.from_s, 1.0F);
-    if (stay.gone_s) add(*stay.gone_s, 0.0F);
+    if (stay.end_s) add(*stay.end_s, 0.0F);
   }
   if (tracks.presence.size() > 1) return;
   tracks.presence_s.clear();
@@ -147,7 +148,7 @@ class GltfWriter final : public SkeletonWriter::Format {
   void SetShape(int id, const ShapeVector& shape) override { shapes_[id] = shape; }
 
   void Finish() override {
-    ExpectSomebody(people_, path_);
+    RequirePeople(people_, path_);
     WriteScene(people_);
   }
 
@@ -155,7 +156,8 @@ class GltfWriter final : public SkeletonWriter::Format {
     const auto write = [this](const PeopleLog& people) { WriteScene(people); };
     const int64_t frames = WriteWhatFits(people_, write);
     if (frames > 0 || !options_.body) return frames;
-    options_.body = nullptr;  // a skin is as long as minutes of motion, and made again any time
+    options_.body = nullptr;  // without skin, which takes as much space as minutes of motion and
+                              // can be made again
     return WriteWhatFits(people_, write);
   }
 
@@ -187,17 +189,18 @@ class GltfWriter final : public SkeletonWriter::Format {
                     body ? &*body : nullptr, options_.body.get(), motion.tracks());
   }
 
-  /// The mean body's where none is known: a map's own new value would be whatever memory holds.
+  /// The mean body's shape if none is known: a map's new fixed-size Eigen value would be
+  /// uninitialised.
   ShapeVector ShapeOf(int id) const {
     const auto known = shapes_.find(id);
     return known == shapes_.end() ? ShapeVector(ShapeVector::Zero()) : known->second;
   }
 
-  /// What readers cannot hold is refused before it is made.
+  /// Refuses a file that readers could not hold, before it is built.
   void CheckLength(size_t bytes, size_t keys) const {
-    // Bytes, by hand; the format itself ends at four times that.
+    // Bytes, by hand; a quarter of the format's own limit.
     constexpr size_t kMost = size_t{1} << 30;
-    // Derived, bytes: of a time, and of all nodes' places and turns.
+    // Derived, bytes per keyframe: a time, and the translations and rotations of all nodes.
     constexpr size_t kKeyBytes = sizeof(float) * (1 + kPersonNodes * (3 + 4));
     if (bytes + keys * kKeyBytes <= kMost) return;
     throw InputError(path_.string() + ": expected a .glb of at most 1 GiB, found " +

@@ -81,16 +81,16 @@ const SkeletonFormat& DetectFormat(std::istream& stream, const std::string& name
       (!foreign.empty() ? foreign : Quoted(sample.lines.empty() ? sample.head : sample.lines[0])));
 }
 
-/// Formats that only recordings of the Kinect SDK 2 are in; UI-PRMD's tables hold Vicon's beside
-/// it.
+/// Whether the format and columns are those of a Kinect SDK 2 recording; UI-PRMD's tables hold
+/// Vicon data beside it.
 bool IsKinectV2(std::string_view format, std::string_view columns) {
   if (format == "ui-prmd-csv") return columns != "truth";
   return format == "labanotation-csv" || format == "keraal-kinect" || format == "ntu" ||
          format == "ui-prmd-kinect";
 }
 
-/// Squares and differences of what is farther away than anything a sensor sees would overflow, and
-/// a mean error be infinite: a damaged file, or numbers in a unit of their own.
+/// Refuses positions farther away than any sensor sees: their squares would overflow and give an
+/// infinite mean error. The file is damaged or in an unusual unit.
 void CheckPlaces(const SkeletonSequence& sequence, const std::string& name) {
   constexpr double kFarthest_m = 1e6;  // by hand: no sensor sees as far
   for (const SkeletonFrame& frame : sequence.frames) {
@@ -125,9 +125,8 @@ bool AreRefinedJoints(const SkeletonSequence& sequence) {
   });
 }
 
-/// Formats of rows have said which line; whatever it is, times that stand still all the time, or
-/// every second frame and more, are none: speeds, filters and what is aligned by time would be made
-/// of nothing.
+/// Refuses recordings whose times repeat always, or in every second frame or more: speeds, filters
+/// and time alignment would be meaningless. Row formats have already reported the line.
 void CheckTimes(const SkeletonSequence& sequence, const std::string& name) {
   const auto& frames = sequence.frames;
   size_t still = 0;
@@ -191,7 +190,7 @@ std::optional<std::string> ReadMappingText(const std::string& name) {
 std::string Columns(const SkeletonReadOptions& options, const SkeletonPath& parts) {
   if (!parts.columns.empty()) return parts.columns;
   if (options.columns.empty()) return {};
-  const std::string columns = ColumnsNamed(options.columns);
+  const std::string columns = ParseColumns(options.columns);
   if (columns.empty()) {
     throw InputError("columns " + Quoted(options.columns) + ": expected truth or observed");
   }
@@ -229,12 +228,12 @@ using Members = std::map<std::string, std::string>;
 std::vector<RecordingPlace> PlacesIn(const Members& members, const std::string& file) {
   std::vector<RecordingPlace> places;
   for (const auto& [name, text] : members) {
-    if (!IsPassedOver(name)) places.push_back({file, name});
+    if (!IsIgnoredFile(name)) places.push_back({file, name});
   }
   return places;
 }
 
-// Of an archive, the members at these places.
+// Reads the members of an archive at these places.
 std::vector<SkeletonClip> ReadMembers(const fs::path& archive, const Members& members,
                                       const std::vector<RecordingPlace>& places,
                                       const Reading& reading) {
@@ -259,7 +258,7 @@ std::vector<SkeletonClip> ReadMembers(const fs::path& archive, const Members& me
 
 std::vector<SkeletonClip> ReadArchiveClips(const SkeletonPath& parts, const Reading& reading) {
   const Members members = ReadArchive(parts.path);
-  const auto places = AskedFor(PlacesIn(members, {}), parts.member);
+  const auto places = SelectRecordings(PlacesIn(members, {}), parts.member);
   return ReadMembers(parts.path, members, places, reading);
 }
 
@@ -269,20 +268,20 @@ std::vector<RecordingPlace> FilesIn(const fs::path& folder) {
   try {
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       latest = entry.path();
-      if (!entry.is_regular_file() || IsPassedOver(entry.path())) continue;
+      if (!entry.is_regular_file() || IsIgnoredFile(entry.path())) continue;
       files.push_back({entry.path().lexically_relative(folder).string(), {}});
     }
-  } catch (const fs::filesystem_error& error) {  // an increment's names no path
+  } catch (const fs::filesystem_error& error) {  // the iterator's exception names no path
     throw InputError(latest.string() + ": " + error.code().message());
   }
   return files;
 }
 
-// Archives are opened for their members' names only where no file is named exactly so.
+// Archives are opened to list their members only if no file has exactly that name.
 std::vector<RecordingPlace> PlacesAskedFor(const SkeletonPath& parts) {
   const auto files = FilesIn(parts.path);
   if (parts.member.empty()) return files;
-  if (auto named = ExactlyNamed(files, parts.member); !named.empty()) return named;
+  if (auto named = SelectExactNames(files, parts.member); !named.empty()) return named;
   std::vector<RecordingPlace> places;
   for (const RecordingPlace& place : files) {
     const fs::path path = parts.path / place.file;
@@ -290,7 +289,7 @@ std::vector<RecordingPlace> PlacesAskedFor(const SkeletonPath& parts) {
                                         : std::vector<RecordingPlace>{place};
     places.insert(places.end(), inside.begin(), inside.end());
   }
-  return AskedFor(places, parts.member);
+  return SelectRecordings(places, parts.member);
 }
 
 std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, Reading& reading) {
@@ -316,7 +315,7 @@ std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, Reading& re
     const bool is_whole = file->second.front().member.empty();
     const auto places = is_whole ? PlacesIn(members, {}) : file->second;
     for (SkeletonClip& clip : ReadMembers(path, members, places, reading)) {
-      // Archives usually hold a folder of their own name: "s01/s01/x" says no more than "s01/x".
+      // Archives usually contain a folder of their own name: "s01/s01/x" adds nothing to "s01/x".
       if (!clip.name.starts_with(*name + "/")) clip.name = *name + "/" + clip.name;
       clips.push_back(std::move(clip));
     }
@@ -325,8 +324,8 @@ std::vector<SkeletonClip> ReadFolderClips(const SkeletonPath& parts, Reading& re
   return clips;
 }
 
-// Of a folder `s01` beside an archive `s01.tar`, or of names that lose an extension and become
-// another's, results would take each other's place.
+// Makes clip names unique: of a folder `s01` beside an archive `s01.tar`, or of names that are
+// equal without their extensions, results would overwrite each other.
 void MakeNamesDiffer(std::vector<SkeletonClip>& clips) {
   std::set<std::string> taken;
   for (SkeletonClip& clip : clips) {
@@ -335,7 +334,8 @@ void MakeNamesDiffer(std::vector<SkeletonClip>& clips) {
   }
 }
 
-// Of files of one skeleton each, all.tar#kinect and all.tar#vicon are the same: compared, 0.00 cm.
+// Warns if '#kinect' or '#vicon' selects nothing: in files of one skeleton each, all.tar#kinect and
+// all.tar#vicon are the same data, and comparing them gives 0.00 cm.
 void WarnIfNothingIsChosen(const fs::path& path, const SkeletonPath& parts,
                            std::vector<SkeletonClip>& clips) {
   const auto is_chosen = [](const SkeletonClip& clip) { return !clip.sequence.columns.empty(); };
@@ -350,8 +350,8 @@ void WarnIfNothingIsChosen(const fs::path& path, const SkeletonPath& parts,
 std::span<const SkeletonFormat> AllSkeletonFormats() {
   static const std::vector<SkeletonFormat> kAll = [] {
     std::vector<SkeletonFormat> all;
-    // Azure before ours: both are JSON with "bodies", and only its marks are unmistakable. Tables
-    // of any program's last: they have the least of their own.
+    // Azure before ours: both are JSON with "bodies", and only Azure's other keys are unambiguous.
+    // Generic tables last: they have the fewest marks of their own.
     for (const auto formats :
          {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(), KinectV2Formats(),
           KinectV1Formats(), C3dFormats(), StreamSaverFormats(), TableFormats()}) {
@@ -362,7 +362,7 @@ std::span<const SkeletonFormat> AllSkeletonFormats() {
   return kAll;
 }
 
-void TakeOutNobody(SkeletonSequence& sequence) {
+void RemoveEmptyBodies(SkeletonSequence& sequence) {
   for (const SkeletonFrame& frame : sequence.frames) {
     for (const BodyRecord& body : frame.bodies) {
       if (std::any_of(body.joints.begin(), body.joints.end(),
@@ -426,7 +426,7 @@ std::vector<SkeletonClip> ReadSkeletonClips(const fs::path& path,
 
 SkeletonSequence ReadSkeletons(const fs::path& path, const SkeletonReadOptions& options) {
   auto clips = ReadSkeletonClips(path, options);
-  if (clips.empty()) return {path.string(), {}};  // stopped
+  if (clips.empty()) return {path.string(), {}};  // cancelled
   if (clips.size() > 1) {
     const SkeletonPath parts = TakeApart(path);
     const std::string columns = parts.columns.empty() ? "" : "#" + parts.columns;

@@ -41,7 +41,7 @@ void AppendVector(std::string& text, const Vector& values, int digits) {
   text.push_back(']');
 }
 
-// Constants: digits that are written, and bounds of what is read, by hand.
+// Constants: output digits and input limits, by hand.
 
 constexpr int kLengthDigits = 7;
 constexpr int kOtherDigits = 6;
@@ -92,7 +92,7 @@ void AppendBody(std::string& text, const BodyRecord& body) {
   text.push_back('}');
 }
 
-// Names are any text: theirs is JSON's own way to write one.
+// Names are arbitrary text and are written as JSON strings.
 void AppendObject(std::string& text, const ObjectRecord& object) {
   text += "{\"name\":" + Json(object.name).dump(-1, ' ', true, Json::error_handler_t::replace) +
           ",\"p\":";
@@ -132,9 +132,9 @@ void SkeletonJsonlWriter::Write(const SkeletonFrame& frame) {
 
 namespace {
 
-// The first key that an object of the text has twice: of such the parser keeps the last in silence.
+// The first duplicate key of any object in the text. The parser silently keeps the last value.
 std::optional<std::string> FindRepeatedKey(std::string_view text) {
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  std::vector<std::set<std::string>> keys;  // keys of each open object
   std::optional<std::string> repeated;
   const auto take = [&](int, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
@@ -148,8 +148,8 @@ std::optional<std::string> FindRepeatedKey(std::string_view text) {
   return repeated;
 }
 
-// As often as it is in the text, also where the parser kept one of two: cheaper than to look at
-// every key of a line of thousands.
+// Counts occurrences in the text, including duplicates that the parser dropped: cheaper than
+// checking every key of a line of thousands.
 size_t CountPlaces(std::string_view text) {
   constexpr std::string_view kPlace = "\"p\"";
   size_t count = 0;
@@ -168,7 +168,7 @@ size_t CountPlaces(const SkeletonFrame& frame, const Json& line) {
 
 }  // namespace
 
-// One line of a file, taken apart; every complaint names the line and the key.
+// Parses one line of a file; every error names the line and the key.
 class SkeletonJsonlReader::Lines {
  public:
   Lines(std::istream& stream, std::string source) : lines_(stream, std::move(source)) {}
@@ -177,7 +177,7 @@ class SkeletonJsonlReader::Lines {
     if (!lines_.NextFilled()) return false;
     if (JsonNesting().IsTooDeep(lines_.line()))
       lines_.Fail("JSON nested at most 32 deep", lines_.line());
-    // The parser never throws here (third argument), so its own wording never reaches the user.
+    // The parser does not throw here (third argument), so its own messages do not reach the user.
     const Json json = Json::parse(lines_.line(), nullptr, false);
     if (json.is_discarded()) FailWhereJsonStops();
     if (!json.is_object()) lines_.Fail("a JSON object", lines_.line());
@@ -190,7 +190,7 @@ class SkeletonJsonlReader::Lines {
   const std::string& source() const { return lines_.source(); }
 
  private:
-  // A line may be long: what a user has to look at is where it stops being JSON.
+  // Reports the position where the line stops being JSON: lines may be long.
   [[noreturn]] void FailWhereJsonStops() const {
     constexpr std::string_view kExpected = "one whole JSON object";
     const std::string_view line = lines_.line();
@@ -274,7 +274,7 @@ class SkeletonJsonlReader::Lines {
     return frame;
   }
 
-  // Of any plane the one whose normal is a unit. SDKs say 0 0 0 0 of a floor that they do not see.
+  // The plane scaled to a unit normal. SDKs write 0 0 0 0 for a floor that they do not see.
   std::optional<Eigen::Vector4d> ParseFloor(const Json& json) const {
     constexpr double kNone = 1e-6, kFewDigits = 1e-3;  // of a length, no unit; by hand
     const Eigen::Vector4d plane(Numbers<4>(json, "\"floor\"").data());
@@ -301,7 +301,7 @@ class SkeletonJsonlReader::Lines {
     return body;
   }
 
-  // Of the bones that end in the joints, in their order; none ends in the first.
+  // Lengths of the bones that end in joints 1 to 19, in their order; no bone ends in joint 0.
   BoneLengths ParseBones(const Json& json) const {
     constexpr double kMost_m = 2.0;
     const auto lengths_m = Numbers<kJointCount - 1>(json, "\"bones\"");
@@ -360,7 +360,7 @@ class SkeletonJsonlReader::Lines {
   Eigen::Quaterniond ParseOrientation(const Json& json, const std::string& where) const {
     const auto q = Numbers<4>(json, where);
     const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-    // Files written with a few digits are off unit length by that much and no more.
+    // Quaternions written with few digits deviate from unit length by no more than this.
     constexpr double kTolerance = 1e-2;  // of the length, no unit
     if (std::abs(rotation.norm() - 1.0) > kTolerance) Fail(where, "a unit quaternion", json);
     return rotation.normalized();

@@ -1,5 +1,5 @@
-// Texts with the 20 joints of the Kinect SDK 1: KinectGait, MSR Action3D, UTKinect-Action3D. All in
-// camera space and metres already; none has tracking states.
+// Text formats with the 20 joints of the Kinect SDK 1: KinectGait, MSR Action3D, UTKinect-Action3D.
+// All are in camera space and metres already; none has tracking states.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,15 +15,15 @@ bool AllNumbers(const std::vector<std::string_view>& words) {
   return std::all_of(words.begin(), words.end(), LooksLikeNumber);
 }
 
-// Joints that a sensor did not see are written as the origin.
+// Unseen joints are written as the origin.
 bool IsSeen(const Eigen::Vector3d& position) { return !position.isZero(0.0); }
 
-// --- KinectGait: `Name;x;y;z`, a joint a line; a new frame begins when the first name comes again.
+// --- KinectGait: `Name;x;y;z`, one joint per line; a frame ends when its first name is repeated.
 
 bool IsKinectGait(const SkeletonSample& sample) {
   if (sample.lines.empty()) return false;
   const auto fields = Split(sample.lines[0], ';');
-  return fields.size() == 4 && JointCalled(fields[0]).has_value();
+  return fields.size() == 4 && FindJointByName(fields[0]).has_value();
 }
 
 void RequireWholeFrame(const TextLines& lines, const BodyRecord& body) {
@@ -49,7 +49,7 @@ SkeletonSequence ReadKinectGait(SkeletonInput& input) {
   while (lines.NextFilled()) {
     const auto fields = Split(lines.line(), ';');
     if (fields.size() != 4) lines.Fail("Name;x;y;z", lines.line());
-    const auto joint = JointCalled(fields[0]);
+    const auto joint = FindJointByName(fields[0]);
     if (!joint) lines.Fail("the name of one of the 20 SDK joints", fields[0]);
     if (!first) first = joint;
     auto& record = body.joints[*joint];
@@ -106,8 +106,8 @@ SkeletonSequence ReadMsrAction3D(SkeletonInput& input) {
   return sequence;
 }
 
-// --- UTKinect-Action3D: the frame's number, then x y z of the 20 joints in SDK order; frames are
-// numbered at 30 Hz with gaps, and some come twice.
+// --- UTKinect-Action3D: frame number, then x y z of the 20 joints in SDK order; frames are
+// numbered at 30 Hz, with gaps and some duplicates.
 
 constexpr size_t kUtColumns = 1 + 3 * kJointCount;
 

@@ -1,6 +1,7 @@
-// Texts with the 25 joints of the Kinect SDK 2: LabanotationSuite, KERAAL (with its Vicon targets),
-// NTU RGB+D. Camera space and metres; 20 of the 25 are ours: SpineBase is HipCenter, SpineMid is
-// Spine, SpineShoulder is ShoulderCenter, Head is Head; Neck, hand tips and thumbs are left out.
+// Text formats with the 25 joints of the Kinect SDK 2: LabanotationSuite, KERAAL (with its Vicon
+// targets), NTU RGB+D. Camera space and metres. Of the 25 joints 20 are used: SpineBase is
+// HipCenter, SpineMid is Spine, SpineShoulder is ShoulderCenter, Head is Head; Neck, hand tips and
+// thumbs are dropped.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ namespace {
 constexpr size_t kV2Joints = 25;
 constexpr size_t kSpineShoulder = 20;
 
-// Our joint of SDK 2's joint; its first twenty are SDK 1's but for Neck in place of ShoulderCenter.
+// Our joint for a joint index of SDK 2. Its first twenty are SDK 1's, except for Neck in place of
+// ShoulderCenter.
 std::optional<Joint> JointOfV2(size_t joint) {
   if (joint == kSpineShoulder) return Joint::kShoulderCenter;
   if (joint == 2 || joint > kSpineShoulder) return std::nullopt;
@@ -73,8 +75,8 @@ SkeletonSequence ReadLabanotation(SkeletonInput& input) {
 }
 
 // --- KERAAL: 25 times x y z and a quaternion, separated by spaces; no time, no state. Its own
-// description has quaternions as x y z w. They are w x y z: only so the y axis of each lies along
-// its bone, as the SDK defines them and as it does in the recordings.
+// description says x y z w. The quaternions are w x y z: only then does each y axis lie along its
+// bone, as the SDK defines it.
 
 constexpr size_t kKeraalColumns = 7 * kV2Joints;
 
@@ -93,7 +95,7 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
       PutJoint(body, *joint, position);
       const Eigen::Quaterniond q(numbers[7 * j + 3], numbers[7 * j + 4], numbers[7 * j + 5],
                                  numbers[7 * j + 6]);
-      // End joints have no orientation in SDK 2: all zero. So have the seated recordings.
+      // End joints have no orientation in SDK 2: all zero. Nor do seated recordings.
       constexpr double kUnit = 1e-2;  // share of the length
       if (std::abs(q.norm() - 1) < kUnit) {
         body.joints[*joint]->orientation = q.normalized();
@@ -106,9 +108,9 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
   return sequence;
 }
 
-// --- KERAAL's Vicon: 17 rigid targets, millimetres, z up, about 60 Hz. A target sits on a limb,
-// not in a joint: each stands for the joint at the limb's far end, with a constant offset of 5-18
-// cm.
+// --- KERAAL's Vicon: 17 rigid targets, millimetres, z up, about 60 Hz. Targets are attached to
+// limbs, not joints: each stands for the joint at the far end of the limb, with a constant offset
+// of 5-18 cm.
 
 constexpr size_t kTargets = 17;  // of the format
 constexpr std::array<Joint, kTargets> kTargetJoints = {
@@ -141,7 +143,7 @@ SkeletonSequence ReadKeraalVicon(SkeletonInput& input) {
 }
 
 // --- NTU RGB+D `.skeleton`: frame count; per frame a body count; per body a line of ten values
-// that begins with its id, the count 25, then a line a joint: x y z, depth and colour pixel,
+// that starts with its id, the count 25, then one line per joint: x y z, depth and colour pixel,
 // quaternion w x y z, state.
 
 bool IsNtu(const SkeletonSample& sample) {
@@ -149,7 +151,7 @@ bool IsNtu(const SkeletonSample& sample) {
       CountNumbers(sample.lines[1], ' ') != 1) {
     return false;
   }
-  // A first frame without bodies is followed by another count.
+  // If the first frame has no bodies, another count follows.
   for (size_t i = 2; i < sample.lines.size(); ++i) {
     const size_t numbers = CountNumbers(sample.lines[i], ' ');
     if (numbers != 1) return numbers == 10;
@@ -157,9 +159,9 @@ bool IsNtu(const SkeletonSample& sample) {
   return true;
 }
 
-// What follows the ten values of a body, of which `id` is the first.
+// Reads the rest of a body after its line of ten values; `id` is the first of these.
 BodyRecord ReadNtuBody(TextLines& lines, const std::string& id, std::map<std::string, int>& ids) {
-  // Ids are 17-digit numbers: in order of appearance they become 1, 2, ...
+  // Ids are 17-digit numbers; they are renumbered 1, 2, ... in order of appearance.
   const int next = static_cast<int>(ids.size()) + 1;
   BodyRecord body;
   body.id = ids.try_emplace(id, next).first->second;
@@ -171,7 +173,7 @@ BodyRecord ReadNtuBody(TextLines& lines, const std::string& id, std::map<std::st
     if (fields.size() != 12) lines.Fail("12 values of a joint", lines.line());
     const auto joint = JointOfV2(j);
     if (!joint) continue;
-    // All may be NaN where nothing was seen; pixels and quaternions are not used.
+    // All values may be NaN if the joint was not seen; pixels and quaternions are not used.
     const auto place = PlaceIn(lines, {fields[0], fields[1], fields[2]}, "x, y or z");
     if (!place || IsNan(fields[11])) continue;
     PutJoint(body, *joint, *place, ParseState(lines, NumberIn(lines, fields[11], "the state")));
@@ -179,7 +181,8 @@ BodyRecord ReadNtuBody(TextLines& lines, const std::string& id, std::map<std::st
   return body;
 }
 
-// Its counts are often wrong, and not needed: a body begins with ten values, a frame with one.
+// Ignores the counts, which are often wrong: a body starts with a line of ten values, a frame with
+// one value.
 class NtuReader {
  public:
   explicit NtuReader(SkeletonInput& input)

@@ -1,6 +1,6 @@
-// Tables that hold an estimate and the truth of the same frames side by side, told apart by the
-// prefix of their columns: UI-PRMD as prepared with Vicon joint centres (K_ Kinect, G_ Vicon) and
-// ITOP beside a network's estimate (P_ estimate, G_ truth).
+// Tables that hold an estimate and the ground truth of the same frames, distinguished by column
+// prefix: UI-PRMD as prepared with Vicon joint centres (K_ Kinect, G_ Vicon), and ITOP with a
+// network's estimate (P_ estimate, G_ truth).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,24 +17,25 @@ struct PairedFormat {
   std::string_view time_column;  // "" : the first column counts frames
   std::string_view observed_prefix;
   double usual_step_s;
-  Eigen::Vector3d metres_per_unit;  // per axis; a negative sign turns the axis round
+  Eigen::Vector3d metres_per_unit;  // per axis; negative: the axis is flipped
 };
 
 // UI-PRMD: centimetres, x to the subject's left, z towards the sensor (subjects stand at
 // z = -240 cm, facing it): half a turn about the vertical gives camera space.
 const PairedFormat kUiPrmd = {"t_s", "K_", 1.0 / 30.0, {-0.01, 0.01, -0.01}};
-// ITOP: metres, x to the right of the image, left-handed: one axis is turned round. It has no
-// times: at 30 Hz one true hand in twenty would be faster than 10 m/s, at 10 Hz than 3.4.
+// ITOP: metres, x to the right of the image, left-handed: one axis is flipped. It has no times. 10
+// Hz is assumed: at 30 Hz one true hand in twenty would move faster than 10 m/s, at 10 Hz faster
+// than 3.4.
 const PairedFormat kItop = {"", "P_", 1.0 / 10.0, {-1.0, 1.0, 1.0}};
 
-// Of UI-PRMD's 22 names the second half is the SDK's; its collars and second neck are none of ours,
-// and "Neck" there is the SDK 2 neck, above ShoulderCenter.
+// Of UI-PRMD's 22 names the second half is the SDK's. Its collars and second neck are not used, and
+// its "Neck" is the SDK 2 neck, above ShoulderCenter.
 std::optional<Joint> JointOfColumn(std::string_view name) {
   if (name == "Neck2_Neck" || name == "Neck_dup" || name.ends_with("Collar")) return std::nullopt;
   if (name == "LToes") return Joint::kFootLeft;
   if (name == "RToes") return Joint::kFootRight;
   const size_t mark = name.rfind('_');
-  return JointCalled(mark == std::string_view::npos ? name : name.substr(mark + 1));
+  return FindJointByName(mark == std::string_view::npos ? name : name.substr(mark + 1));
 }
 
 struct JointColumns {
@@ -100,7 +101,7 @@ SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
   return sequence;
 }
 
-// Whether the table begins with the column `first` and has one whose name begins with `other`.
+// Whether the first column is `first` and the name of some column starts with `other`.
 bool HasColumns(const SkeletonSample& sample, std::string_view first, std::string_view other) {
   if (sample.lines.empty()) return false;
   const std::vector<std::string> header = ReadCsvHeader(sample.lines[0]);

@@ -1,4 +1,4 @@
-// The formats that are not an SDK's: our own JSONL and table, OpenSim's TRC.
+// Formats that belong to no SDK: our own JSONL and table, OpenSim's TRC.
 #include <algorithm>
 #include <array>
 
@@ -14,7 +14,7 @@ namespace {
 
 bool IsJsonl(const SkeletonSample& sample) {
   if (sample.lines.empty() || !Trimmed(sample.lines[0]).starts_with('{')) return false;
-  // Azure Kinect's recordings are JSON too: an object over many lines with other keys.
+  // Azure Kinect's recordings are JSON, too: one object over many lines, with other keys.
   return sample.lines[0].find("\"bodies\"") != std::string_view::npos ||
          (sample.lines[0].size() > 1 && sample.name.ends_with(".jsonl"));
 }
@@ -37,7 +37,7 @@ bool IsBvh(const SkeletonSample& sample) {
   return !sample.lines.empty() && Lower(sample.lines[0].substr(0, 9)) == "hierarchy";
 }
 
-// The BVH reader wants the whole text.
+// The BVH reader needs the whole text.
 SkeletonSequence ReadBvhSkeleton(SkeletonInput& input) {
   std::string text;
   std::array<char, 1 << 16> block{};

@@ -7,13 +7,13 @@
 namespace ossa::recon {
 namespace {
 
-// Columns are said before or after the member; a member's own name may hold a '#'.
-void TakeWords(std::string words, SkeletonPath& parts) {
+// Columns may be given before or after the member; a member's name may contain '#'.
+void ParseSelectors(std::string words, SkeletonPath& parts) {
   const size_t last = words.rfind('#') + 1;  // 0 without one
   const size_t first = std::min(words.find('#'), words.size());
-  if (parts.columns = ColumnsNamed(words.substr(last)); !parts.columns.empty()) {
+  if (parts.columns = ParseColumns(words.substr(last)); !parts.columns.empty()) {
     words.resize(last > 0 ? last - 1 : 0);
-  } else if (parts.columns = ColumnsNamed(words.substr(0, first)); !parts.columns.empty()) {
+  } else if (parts.columns = ParseColumns(words.substr(0, first)); !parts.columns.empty()) {
     words.erase(0, first + 1);
   }
   parts.member = std::move(words);
@@ -21,7 +21,7 @@ void TakeWords(std::string words, SkeletonPath& parts) {
 
 }  // namespace
 
-std::string ColumnsNamed(const std::string& word) {
+std::string ParseColumns(const std::string& word) {
   for (const char* name : {"truth", "vicon", "G", "ground-truth"}) {
     if (word == name) return "truth";
   }
@@ -39,7 +39,7 @@ SkeletonPath TakeApart(const std::filesystem::path& path) {
     const std::string left = text.substr(0, end);
     if (!std::filesystem::exists(left, unknown)) continue;
     SkeletonPath parts{left, {}, {}};
-    if (end < text.size()) TakeWords(text.substr(end + 1), parts);
+    if (end < text.size()) ParseSelectors(text.substr(end + 1), parts);
     return parts;
   }
   return {path, {}, {}};

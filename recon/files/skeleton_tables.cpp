@@ -1,6 +1,6 @@
-// Tables of joints by name, as programs of people's own write them: a line a joint, FRAME JOINT x y
-// z [confidence]; or a row a frame below a header of NAME_x NAME_y NAME_z. The frame may be a time.
-// Camera space; the unit is nowhere stated, and is known by the limbs' length.
+// Tables of named joints, as custom programs write them: one joint per line, FRAME JOINT x y z
+// [confidence]; or one frame per row under a header of NAME_x NAME_y NAME_z. The frame may be a
+// time. Camera space. The unit is not stated; it is derived from limb lengths.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace ossa::recon {
 namespace {
 
-// The fields of a line, also of one without any separator but blanks.
+// The fields of a line, which may be separated by blanks only.
 class FieldsOf {
  public:
   explicit FieldsOf(std::string_view first)
@@ -27,25 +27,25 @@ class FieldsOf {
   }
 
  private:
-  static constexpr size_t kFewest = 5;  // of the format: the last of them may be blank
+  static constexpr size_t kFewest = 5;  // minimum, by the format; the last may be blank
   CsvFields csv_;
   bool has_separators_;
 };
 
-// What its own program calls a person is before the joint, as in TRC and C3D.
+// The joint's label, with the person's name as prefix, as in TRC and C3D.
 std::string LabelOf(const std::vector<std::string>& fields, const RowColumns& columns,
                     const std::string& joint) {
   return columns.body ? fields[*columns.body] + ":" + joint : joint;
 }
 
-// --- A line a joint.
+// --- One joint per line.
 
-/// Where a line says what; without a header in this order.
+/// Columns of a line; the defaults are the order without a header.
 struct LineColumns : RowColumns {
   size_t joint = 1;
   std::array<size_t, 3> place = {2, 3, 4};
-  size_t confidence = 5;  // may be beyond the last
-  size_t fields = 5;      // that a line has at least
+  size_t confidence = 5;  // may not exist
+  size_t fields = 5;      // minimum number of fields
 };
 
 constexpr std::string_view kLine = "FRAME JOINT x y z [confidence]";
@@ -122,14 +122,14 @@ SkeletonSequence ReadJointLines(SkeletonInput& input) {
   return MakeSequence(input, table, columns);
 }
 
-// --- A row a frame.
+// --- One frame per row.
 
 struct NamedColumns {
   std::string joint;
   std::array<size_t, 3> place;
 };
 
-// "SpineBase_x", "SpineBase.X", "SpineBase (x)", "SpineBase_Position_X": the joint and the axis.
+// Splits "SpineBase_x", "SpineBase.X", "SpineBase (x)", "SpineBase_Position_X" into joint and axis.
 std::optional<std::pair<std::string, size_t>> JointAndAxis(std::string_view name) {
   constexpr std::string_view kBetween = " _.-:/([", kAxes = "xyz", kPosition = "position";
   while (name.ends_with(')') || name.ends_with(']')) name.remove_suffix(1);
@@ -148,7 +148,7 @@ std::optional<std::pair<std::string, size_t>> JointAndAxis(std::string_view name
   return std::pair{std::string(name), axis};
 }
 
-// Of a joint that lacks an axis, none: key points in an image are no joints.
+// Joints that lack an axis are left out: image key points are not joints.
 std::vector<NamedColumns> FindJointColumns(const std::vector<std::string>& names) {
   std::vector<NamedColumns> joints;
   std::map<std::string, size_t> numbers;
@@ -169,7 +169,8 @@ std::vector<NamedColumns> FindJointColumns(const std::vector<std::string>& names
   return joints;
 }
 
-// Networks' key points have noses, and axes and origins of their own.
+// Whether these are joint columns. Network key points are recognised by their noses; their axes and
+// origins differ.
 bool AreJointColumns(const SkeletonSample& sample) {
   constexpr size_t kEnough = 3;  // joints, by hand
   if (sample.lines.empty()) return false;

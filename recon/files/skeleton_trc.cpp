@@ -23,8 +23,8 @@ std::vector<std::string> NotEmpty(const std::vector<std::string_view>& fields) {
   return filled;
 }
 
-// Names and values of the header stand under each other, or one after the other where programs
-// doubled some tabs.
+// Header names and values are in the same columns, or in the same order if a program doubled some
+// tabs.
 TrcHeader ReadHeader(TextLines& lines) {
   lines.Expect("a TRC header");
   if (!lines.line().starts_with("PathFileType")) lines.Fail("PathFileType", lines.line());
@@ -56,7 +56,7 @@ TrcHeader ReadHeader(TextLines& lines) {
   return header;
 }
 
-// The names of all markers, in the order of their columns; "" for one that has none.
+// Marker names in the order of their columns; "" for a marker without a name.
 std::vector<std::string> ReadMarkerNames(TextLines& lines, const TrcHeader& header) {
   lines.Expect("the line of marker names");
   if (!lines.line().starts_with("Frame#")) lines.Fail("Frame#, Time and names", lines.line());
@@ -90,11 +90,11 @@ class TrcRows {
   TrcRows(TextLines& lines, size_t markers, double metres_per_unit)
       : lines_(lines), markers_(markers), metres_per_unit_(metres_per_unit) {}
 
-  // False at the end. A row that was cut is refused: its last digits are missing.
+  // False at the end. A truncated row is refused: its last digits are missing.
   bool Next() {
     if (!lines_.NextFilled()) return false;
     fields_ = Split(lines_.line(), '\t');
-    if (lines_.line().ends_with('\t')) fields_.emplace_back();  // Split opens no piece there
+    if (lines_.line().ends_with('\t')) fields_.emplace_back();  // Split drops an empty last field
     while (fields_.size() > Columns() && fields_.back().empty()) fields_.pop_back();
     if (fields_.size() < 2 || fields_.size() > Columns()) {
       lines_.Fail(fmt::format("2 to {} columns", Columns()),
@@ -109,7 +109,7 @@ class TrcRows {
 
   double ReadTime_s() const { return NumberIn(lines_, fields_[1], "Time"); }
 
-  // Blank columns, NaN and columns left out at the end are how TRC says that nothing was seen.
+  // TRC marks unseen markers by blank columns, NaN, or columns missing at the end.
   std::vector<SeenPoint> ReadPoints() const {
     std::vector<SeenPoint> points(markers_);
     for (size_t m = 0; m < markers_; ++m) {
@@ -127,7 +127,7 @@ class TrcRows {
  private:
   size_t Columns() const { return 2 + 3 * markers_; }
 
-  // The decimals that all numbers of the row have; none where they differ.
+  // Number of decimals of all numbers in the row; none if they differ.
   std::optional<size_t> CountCommonDecimals() const {
     std::optional<size_t> decimals;
     for (size_t f = 2; f < fields_.size(); ++f) {
@@ -139,8 +139,8 @@ class TrcRows {
     return decimals;
   }
 
-  // Of a row without a line end: columns are missing, or digits of the last number, where the row
-  // before has all its numbers alike.
+  // Whether a row without a line end is truncated: columns are missing, or its last number has
+  // fewer digits than the uniform row before.
   bool IsCut() const {
     if (fields_.size() < Columns()) return true;
     const std::string_view last = fields_.back();
@@ -151,7 +151,7 @@ class TrcRows {
   size_t markers_;
   double metres_per_unit_;
   std::vector<std::string_view> fields_;
-  size_t decimals_ = 0;  // of the numbers of the row before, where they are alike
+  size_t decimals_ = 0;  // decimals of the previous row, if uniform
 };
 
 }  // namespace
@@ -179,8 +179,8 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
                     "are read",
                     input.name, *header.frames, sequence.frames.size()));
   }
-  TakeOutNobody(sequence);
-  BringUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
+  RemoveEmptyBodies(sequence);
+  RotateUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
   return sequence;
 }
 

@@ -21,7 +21,8 @@ constexpr std::array<int, kJoints> kParents = {-1, 0,  1,  2, 3,  4,  3,  6, 7, 
                                                10, 11, 12, 0, 14, 15, 16, 0, 18, 19, 20};
 
 // Waist Spine Chest Neck Head HeadTip LCollar LUpperArm LForearm LHand RCollar ... LUpperLeg
-// LLowerLeg LFoot LToes RUpperLeg ...: a segment's place is the joint it begins in.
+// LLowerLeg LFoot LToes RUpperLeg ...: the position of a segment is that of the joint where it
+// starts.
 constexpr std::array<std::pair<size_t, Joint>, 18> kMap = {{{0, Joint::kHipCenter},
                                                             {1, Joint::kSpine},
                                                             {2, Joint::kShoulderCenter},
@@ -89,8 +90,8 @@ std::string AnglesFor(const SkeletonInput& input) {
   return *text;
 }
 
-// Kinect's angles have as many columns as its positions, and Vicon's as its markers: only the name
-// tells.
+// Refuses angle files, which only their name distinguishes: Kinect angles have as many columns as
+// positions, Vicon angles as many as markers.
 void RefuseAngles(const SkeletonInput& input) {
   if (!HoldsAngles(input.name)) return;
   throw InputError(input.name +

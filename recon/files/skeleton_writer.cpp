@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Formats whose lines say nothing of how many there are.
+// Formats that do not state the number of their lines.
 class LineWriter final : public SkeletonWriter::Format {
  public:
   using LinesOf = std::string (*)(const SkeletonFrame&);
@@ -77,7 +77,7 @@ fs::path PathForBody(const fs::path& path, size_t index, int id) {
   if (index == 0) return path;
   std::string name = path.stem().string();
   const std::string end = fmt::format("_{}{}", id, path.extension().string());
-  // The others of somebody whose own name just fits.
+  // Shortens the base name if the added `_ID` would make it too long.
   const size_t most = LongestNameIn(FolderOf(path));
   if (path.filename().string().size() <= most && name.size() + end.size() > most) {
     name = ShortenName(name, most - end.size());

@@ -11,14 +11,14 @@ class SkeletonWriter::Format {
   virtual void Write(const SkeletonFrame& frame) = 0;
   virtual void Finish() = 0;
   virtual int64_t FinishWithWhatFits() = 0;
-  virtual void SetShape(int /*id*/, const ShapeVector& /*shape*/) {}  // most show no bodies
+  virtual void SetShape(int /*id*/, const ShapeVector& /*shape*/) {}  // optional
 };
 
 class PeopleLog;
-/// Throws InputError where nobody is anywhere in the recording. `path`: of the file to be.
-void ExpectSomebody(const PeopleLog& people, const std::filesystem::path& path);
+/// Throws InputError if the recording has no people. `path`: the file to be written.
+void RequirePeople(const PeopleLog& people, const std::filesystem::path& path);
 
-/// `path`, of the first person (`index` 0) as it is, of another with `_ID` before the extension.
+/// `path` for the first person (`index` 0); for others with `_ID` before the extension.
 std::filesystem::path PathForBody(const std::filesystem::path& path, size_t index, int id);
 
 std::unique_ptr<SkeletonWriter::Format> NewTrcWriter(const std::filesystem::path& path);

@@ -53,7 +53,7 @@ void TextLines::Fail(std::string_view expected, std::string_view found) const {
 std::string Quoted(std::string_view bytes) {
   constexpr size_t kShown = 40, kLongestTail = 3;  // bytes: by hand; of a UTF-8 character
   size_t end = std::min(kShown, bytes.size());
-  // Not within a character.
+  // Do not cut within a UTF-8 character.
   for (size_t back = 0; back < kLongestTail && end < bytes.size(); ++back) {
     if ((static_cast<unsigned char>(bytes[end]) & 0xC0U) == 0x80) --end;
   }
@@ -112,7 +112,7 @@ bool IsNan(std::string_view field) {
   if (field.starts_with('-') || field.starts_with('+')) field.remove_prefix(1);
   std::string lower;
   for (const char c : field) lower += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  // Of printf, of Microsoft's old and new.
+  // NaN as printed by printf and by old and new Microsoft libraries.
   return lower == "nan" || lower.starts_with("nan(") || lower.starts_with("1.#qnan") ||
          lower.starts_with("1.#ind");
 }

@@ -10,7 +10,7 @@
 namespace ossa::recon {
 namespace {
 
-// Lengths of thighs, shins and upper arms, the bones that every format has.
+// Lengths of thighs, shins and upper arms, which every format has.
 std::vector<double> MeasureLimbs(const SkeletonSequence& sequence) {
   constexpr std::array<std::pair<Joint, Joint>, 6> kLimbs = {{
       {Joint::kHipLeft, Joint::kKneeLeft},
@@ -41,7 +41,7 @@ std::optional<double> MedianLimb(const SkeletonSequence& sequence) {
 }
 
 std::string DescribeUnlikelyUnit(const SkeletonSequence& sequence) {
-  // Metres, by hand: a newborn's are longer, no giant's as long.
+  // Metres, by hand: newborns' limbs are longer than the one, giants' shorter than the other.
   constexpr double kShortest_m = 0.05, kLongest_m = 2.0;
   const auto limb_m = MedianLimb(sequence);
   if (!limb_m || (*limb_m >= kShortest_m && *limb_m <= kLongest_m)) return {};

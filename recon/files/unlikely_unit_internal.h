@@ -6,11 +6,12 @@
 
 namespace ossa::recon {
 
-/// The median length of thighs, shins and upper arms, in the unit of the places; none without any.
+/// The median length of thighs, shins and upper arms, in the unit of the positions; none without
+/// any.
 std::optional<double> MedianLimb(const SkeletonSequence& sequence);
 
-/// What is odd about people's size in a recording whose file states another unit than it is in, and
-/// that would else be read in silence, a thousand times too large. "" where nothing is.
+/// A warning if the body size shows that the file's stated unit is wrong; "" if it is plausible.
+/// Without it, people a thousand times too large would be read silently.
 std::string DescribeUnlikelyUnit(const SkeletonSequence& sequence);
 
 }  // namespace ossa::recon

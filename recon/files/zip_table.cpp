@@ -1,5 +1,5 @@
-// The .zip format: PKWARE's APPNOTE.TXT 6.3, sections 4.3.7 (member), 4.3.12 (table), 4.3.14 to 16
-// (ends of the table).
+// The .zip format: PKWARE's APPNOTE.TXT 6.3, sections 4.3.7 (local header), 4.3.12 (central
+// directory), 4.3.14 to 16 (end records).
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -20,7 +20,7 @@ constexpr size_t kMemberSize = 30, kEntrySize = 46, kEndSize = 22, kLargeEndSize
                  kLargeEndAtSize = 20;
 constexpr size_t kLongestComment = 65535;
 constexpr uint64_t kSaidInLargeEnd = 0xffffffff;
-constexpr unsigned kChecksumFollows = 1U << 3U;         // a member's flag
+constexpr unsigned kChecksumFollows = 1U << 3U;         // local header flag
 constexpr uint64_t kLargestTable = uint64_t{1} << 26U;  // bytes, by hand: a million names
 
 struct Table {
@@ -67,7 +67,7 @@ class ZipFile {
     return value;
   }
 
-  // The last mark whose comment ends with the file.
+  // The last end-of-directory record whose comment ends with the file.
   uint64_t FindEnd() {
     const uint64_t size = std::min<uint64_t>(size_, kEndSize + kLongestComment);
     const std::string tail = ReadAt(size_ - size, size);
@@ -104,13 +104,13 @@ class ZipFile {
     return table;
   }
 
-  // By an entry's attributes, of DOS or of Unix; such members are not read.
-  static bool SaysFolder(uint64_t attributes) {
+  // Whether the DOS or Unix attributes of an entry say folder; folders are not read.
+  static bool IsFolderEntry(uint64_t attributes) {
     constexpr uint64_t kDosFolder = 0x10, kUnixKind = 0170000, kUnixFolder = 0040000;
     return (attributes & kDosFolder) != 0 || (attributes >> 16U & kUnixKind) == kUnixFolder;
   }
 
-  // Returns the entry's size.
+  // Returns the size of the entry.
   size_t CheckEntry(std::string_view entries, size_t at, uint64_t table_at) {
     if (entries.size() - at < kEntrySize || entries.substr(at, 4) != kEntry) {
       Fail(table_at + at, "an entry of its table of members");
@@ -133,13 +133,14 @@ class ZipFile {
                       Number(member, 26, 2) == name_size &&
                       member.substr(kMemberSize) == entries.substr(at + kEntrySize, name_size);
     if (!same) Fail(member_at, "a member as its table says, found another");
-    if (SaysFolder(field(38, 4)) && !member.ends_with('/')) {
+    if (IsFolderEntry(field(38, 4)) && !member.ends_with('/')) {
       Fail(table_at + at, "a folder named as one");
     }
     return size;
   }
 
-  // Of a member beyond 4 GiB: in a field (4.5.3) behind those sizes that are too large as well.
+  // The offset of a member beyond 4 GiB, from the extra field (4.5.3), after the sizes that
+  // overflow as well.
   uint64_t LargeOffset(std::string_view extra, std::array<uint64_t, 2> sizes, uint64_t at) const {
     constexpr uint64_t kLargeSizes = 1;
     while (extra.size() >= 4) {

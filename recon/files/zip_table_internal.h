@@ -3,9 +3,9 @@
 
 namespace ossa::recon {
 
-/// Throws InputError, naming the byte, unless a .zip is whole: its table of members at its end, and
-/// each member's own header saying the same of its name, its method and its checksum. Without a
-/// table libarchive takes what members it finds, and of a name it takes either's.
+/// Throws InputError, naming the byte, unless a .zip is complete: a central directory at its end,
+/// and local headers that agree with it on name, method and checksum. Without a central directory
+/// libarchive reads whatever members it finds, and it takes names from either.
 void CheckZipTable(const std::filesystem::path& path);
 
 }  // namespace ossa::recon

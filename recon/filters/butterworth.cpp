@@ -14,7 +14,7 @@
 namespace ossa::recon {
 namespace {
 
-/// y = second-order Butterworth low pass of x, bilinear transform, started in its steady state.
+/// Second-order Butterworth low pass by bilinear transform, initialised in the steady state.
 std::vector<Eigen::Vector3d> LowPass(const std::vector<Eigen::Vector3d>& x, double ratio) {
   const double k = std::tan(std::numbers::pi * ratio), k2 = k * k, root2 = std::sqrt(2.0);
   const double norm = 1.0 / (1.0 + root2 * k + k2);
@@ -29,14 +29,14 @@ std::vector<Eigen::Vector3d> LowPass(const std::vector<Eigen::Vector3d>& x, doub
   return y;
 }
 
-/// A joint of a person for as long as it is there.
+/// The samples of one joint of one person between absences.
 struct Track {
-  std::vector<JointRecord*> joints;  // in time order
+  std::vector<JointRecord*> joints;  // in order of time
   std::vector<double> time_s;
 };
 
-/// Every joint of every person, anew after an absence of a few frames (by hand): what comes after
-/// it is not the next sample of what was before.
+/// The tracks of all joints of all people. An absence of a few frames (by hand) starts a new track:
+/// the samples around it are not consecutive.
 std::vector<Track> CollectTracks(SkeletonSequence& sequence) {
   constexpr double kGap_frames = 3.5;  // by hand
   const double gap_s = kGap_frames * MedianStep_s(sequence);
@@ -61,7 +61,7 @@ std::vector<Track> CollectTracks(SkeletonSequence& sequence) {
   return tracks;
 }
 
-/// The bones' orientations, as the filtered joints tell them.
+/// Recomputes bone orientations from the filtered joints.
 void Orient(BodyRecord& body) {
   Posture posture;
   for (size_t i = 0; i < kJointCount; ++i) {

@@ -7,7 +7,7 @@
 namespace ossa::recon {
 namespace {
 
-/// Share of a new value that a first-order low pass takes.
+/// Weight of a new value in a first-order low pass.
 double LowPassShare(double cutoff_hz, double dt_s) {
   const double tau_s = 1.0 / (2.0 * std::numbers::pi * cutoff_hz);
   return 1.0 / (1.0 + tau_s / dt_s);
@@ -25,7 +25,7 @@ Eigen::Vector3d HoltFilter::Step(const Eigen::Vector3d& value_m) {
     if (count_ == 1 && o.averages_second) {
       level_m_ = 0.5 * (value_m + last_m_);
     } else {
-      // Moves within the jitter radius are damped before they enter.
+      // Changes within the jitter radius are damped before filtering.
       const double share = std::min(1.0, (value_m - before_m).norm() / o.jitter_radius_m);
       const Eigen::Vector3d damped_m = value_m * share + before_m * (1.0 - share);
       level_m_ = damped_m * (1.0 - o.smoothing) + (before_m + trend_m_) * o.smoothing;
@@ -57,9 +57,9 @@ Eigen::Vector3d OneEuroFilter::Step(const Eigen::Vector3d& value_m, double dt_s)
 }
 
 Eigen::Vector3d VelocityKalman::Step(const Eigen::Vector3d& value_m, double dt_s, double trust) {
-  constexpr double kRest_s = 0.2;  // by hand: while nothing is known, at rest within a few frames
+  constexpr double kRest_s = 0.2;  // initial velocity decays within a few frames; by hand
   constexpr double kFirstVariance_m2_s2 =
-      1.0;  // of the velocity; anthropometry: people move at 1 m/s
+      1.0;  // initial standard deviation of velocity; anthropometry: people move at 1 m/s
   const double r = noise_m_ * noise_m_;
   if (!started_) {
     started_ = true;

@@ -7,7 +7,8 @@ namespace ossa::recon {
 Eigen::Vector3d LagFilter::Step(const Eigen::Vector3d& value_m, double dt_s, double trust) {
   Measure(value_m, dt_s, trust);
   const Eigen::Vector3d euro_last = one_euro_value_;
-  // One-Euro knows no trust: a doubtful measurement enters as far as it is trusted.
+  // One-Euro has no measurement weights: a measurement is blended with the last estimate by its
+  // trust.
   const Eigen::Vector3d entering =
       steps_ == 0 ? value_m
                   : Eigen::Vector3d(euro_last + std::min(1.0, trust) * (value_m - euro_last));
@@ -46,7 +47,7 @@ void LagFilter::StepKalman(const Eigen::Vector3d& value_m, double dt_s, double t
     p00_ = r, p01_ = 0.0, p11_ = options_.first_variance;
     return;
   }
-  // x' = F x with F = [1, dt phi; 0, phi]: the velocity fades.
+  // x' = F x with F = [1, dt phi; 0, phi]: the velocity decays.
   const double phi = std::exp(-dt_s / options_.velocity_memory_s), f = dt_s * phi;
   const double q = options_.acceleration * options_.acceleration, t2 = dt_s * dt_s;
   const Eigen::Vector3d predicted = position_ + f * velocity_, faded = phi * velocity_;

@@ -4,39 +4,39 @@
 #include "recon/filters/joint_filters.h"
 
 // Constants: chosen on UI-PRMD by `ossa experiment sdk`, which with data = ["nested"] chooses the
-// first two anew, each on people other than those it is tested on. Within a factor of two of these
-// nothing moves by more than 2 %.
+// first two in nested cross-validation over people. Varied by a factor of two, none changes the
+// result by more than 2 %.
 
 namespace ossa::recon {
 
 /// Settings of LagFilter.
 struct LagFilterOptions {
-  double noise_m = 0.02;           // of one measurement, standard deviation, > 0
-  double acceleration = 10.0;      // of a joint, m/s^2, standard deviation, > 0
-  double velocity_memory_s = 0.3;  // a velocity fades with this time constant, > 0
-  double first_variance = 0.3;     // of the velocity, m^2/s^2, before anything is known
-  // Second differences of real moves stay below a centimetre a frame squared; sensors without any
-  // smoothing of their own have five and more. Between these two filters are mixed.
+  double noise_m = 0.02;           // standard deviation of a measurement, > 0
+  double acceleration = 10.0;      // standard deviation of a joint's acceleration, m/s^2, > 0
+  double velocity_memory_s = 0.3;  // time constant of the velocity's decay, > 0
+  double first_variance = 0.3;     // initial variance of the velocity, m^2/s^2
+  // Second differences of real motion stay below a centimetre per frame squared; those of sensors
+  // without smoothing reach five and more. Between these two limits both filters are mixed.
   double smooth_sensor_m = 0.015, jumpy_sensor_m = 0.04;
-  double most_jitter_m = 0.2;    // one gross error says little about the usual jitter
-  double jitter_memory_s = 1.0;  // of the mean jitter
-  double one_euro_back = 0.3;    // share of its next step that One-Euro's last estimate follows
+  double most_jitter_m = 0.2;  // cap of one sample: a gross error must not dominate the mean jitter
+  double jitter_memory_s = 1.0;  // time constant of the mean jitter
+  double one_euro_back = 0.3;    // share of the next step added to One-Euro's last estimate
 };
 
-/// The filter of `best`: one joint, now without lag and once more a frame later, when the next
-/// measurement has told which way the joint went.
+/// The filter of `best` for one joint: an estimate without lag, and a revised one a frame later,
+/// when the next measurement has shown the direction of motion.
 ///
-/// Two filters run beside each other, because sensors are of two kinds. One that jitters by
-/// millimetres is followed by a Kalman filter whose velocity comes to rest by itself; its second
-/// estimate is the fixed-interval smoother's (Rauch, Tung and Striebel 1965) over one frame. One
-/// that jitters by centimetres has no velocity to speak of, and One-Euro serves it better. The
-/// measured jitter, of this joint over the last second, says which of the two is taken.
+/// Two filters run side by side, because there are two kinds of sensors. For a jitter of
+/// millimetres there is a Kalman filter with decaying velocity; its revised estimate is that of the
+/// fixed-interval smoother (Rauch, Tung and Striebel 1965) over one frame. With a jitter of
+/// centimetres velocity cannot be estimated, and One-Euro is better. The jitter of this joint,
+/// measured over the last second, selects between them.
 class LagFilter {
  public:
   explicit LagFilter(const LagFilterOptions& options = {}) : options_(options) {}
-  /// trust in (0, 1] divides the measurement's variance. The estimate for now.
+  /// The estimate for now. The measurement's variance is divided by `trust` in (0, 1].
   Eigen::Vector3d Step(const Eigen::Vector3d& value_m, double dt_s, double trust);
-  /// What is now thought of the step before.
+  /// The revised estimate of the previous step.
   const Eigen::Vector3d& before_m() const { return before_; }
 
  private:
@@ -51,7 +51,7 @@ class LagFilter {
   OneEuroFilter one_euro_;
   Eigen::Vector3d one_euro_value_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero(), before_last_ = Eigen::Vector3d::Zero();
-  double jitter_m_ = 0.0;  // mean second difference of what is measured
+  double jitter_m_ = 0.0;  // mean second difference of the measurements
 };
 
 }  // namespace ossa::recon

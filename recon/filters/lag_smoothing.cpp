@@ -12,44 +12,46 @@
 namespace ossa::recon {
 namespace {
 
-// By hand: after a longer absence a joint is elsewhere.
+// By hand: after a longer absence the joint may be anywhere.
 constexpr double kGap_s = 0.25;
-constexpr double kWidest = 3.0;  // standard deviations; what lies beyond weighs 1 % and less
+constexpr double kWidest = 3.0;  // standard deviations; weights beyond are 1 % and less
 
-/// Whether a joint went on from one frame to the next.
-bool GoesOn(const TimedPosture& from, const TimedPosture& to, size_t joint) {
+/// Whether a joint is continuous between two frames.
+bool IsContinuous(const TimedPosture& from, const TimedPosture& to, size_t joint) {
   const double step_s = to.time_s - from.time_s;
   return from.present[joint] && to.present[joint] && step_s > 0.0 && step_s <= kGap_s;
 }
 
-/// Two frames, one on either side of the one that is smoothed, and what they say of it.
+/// Two frames, one on each side of the smoothed one, with their contribution.
 struct Pair {
   const TimedPosture *before, *after;
-  double share_before;  // of the line between them: the frame's time lies so
-  double weight;        // against the frame's own 1
+  double share_before;  // position of the frame's time between theirs
+  double weight;        // relative to the frame's own weight of 1
 };
 
-/// The nearest frame of another time, back or ahead; none where the way ends before. Loggers that
-/// ask faster than sensors answer say a time twice.
-std::optional<size_t> FindOtherTime(std::span<const TimedPosture> way, size_t from, bool ahead) {
-  for (size_t at = from; ahead ? at + 1 < way.size() : at > 0;) {
+/// The nearest frame with a different time, backwards or forwards; none at the end of the track.
+/// Loggers that poll faster than the sensor delivers repeat times.
+std::optional<size_t> FindOtherTime(std::span<const TimedPosture> track, size_t from, bool ahead) {
+  for (size_t at = from; ahead ? at + 1 < track.size() : at > 0;) {
     at = ahead ? at + 1 : at - 1;
-    if (way[at].time_s != way[from].time_s) return at;
+    if (track[at].time_s != track[from].time_s) return at;
   }
   return std::nullopt;
 }
 
-std::vector<Pair> PairsAround(std::span<const TimedPosture> way, size_t at, size_t joint,
+std::vector<Pair> PairsAround(std::span<const TimedPosture> track, size_t at, size_t joint,
                               const LagOptions& options) {
   std::vector<Pair> pairs;
-  const TimedPosture& own = way[at];
-  const auto most = options.frames == kWholeRecording ? way.size() : size_t(options.frames);
+  const TimedPosture& own = track[at];
+  const auto most = options.frames == kWholeRecording ? track.size() : size_t(options.frames);
   const auto square = [](double x) { return x * x; };
   for (size_t k = 1, first = at, last = at; k <= most; ++k) {
-    const auto earlier = FindOtherTime(way, first, false), later = FindOtherTime(way, last, true);
+    const auto earlier = FindOtherTime(track, first, false),
+               later = FindOtherTime(track, last, true);
     if (!earlier || !later) break;
-    const TimedPosture &before = way[*earlier], &after = way[*later];
-    if (!GoesOn(before, way[first], joint) || !GoesOn(way[last], after, joint)) break;
+    const TimedPosture &before = track[*earlier], &after = track[*later];
+    if (!IsContinuous(before, track[first], joint) || !IsContinuous(track[last], after, joint))
+      break;
     first = *earlier;
     last = *later;
     const double back_s = own.time_s - before.time_s, ahead_s = after.time_s - own.time_s;
@@ -77,7 +79,7 @@ Eigen::Vector3d MeanPosition(const TimedPosture& own, size_t joint,
   return sum / weights;
 }
 
-/// The mean of turns that are near each other: of their quaternions, signs alike.
+/// Mean of nearby rotations: of their quaternions, with equal signs.
 Eigen::Quaterniond MeanTurn(const TimedPosture& own, size_t joint, const std::vector<Pair>& pairs) {
   Eigen::Vector4d sum = own.orientation[joint].coeffs();
   const Eigen::Vector4d first = sum;
@@ -91,7 +93,7 @@ Eigen::Quaterniond MeanTurn(const TimedPosture& own, size_t joint, const std::ve
   return Eigen::Quaterniond(sum).normalized();
 }
 
-/// The turn with its bone, wherever in the bone's own axes that lies, along the smoothed one.
+/// `turn` rotated so that the bone, fixed in the bone's own axes, lies along the smoothed bone.
 Eigen::Quaterniond AlongBone(const Eigen::Quaterniond& turn, const Eigen::Quaterniond& own,
                              const Eigen::Vector3d& own_bone_m, const Eigen::Vector3d& bone_m) {
   constexpr double kLeast_m = 1e-6;  // by convention: shorter bones have no direction
@@ -99,14 +101,14 @@ Eigen::Quaterniond AlongBone(const Eigen::Quaterniond& turn, const Eigen::Quater
   return (SmallestTurn(turn * (own.conjugate() * own_bone_m), bone_m) * turn).normalized();
 }
 
-/// A person's way through a recording, and where each of its postures is written.
-struct Way {
+/// A person's track through a recording, and where each of its postures is written.
+struct PersonTrack {
   std::vector<TimedPosture> postures;
   std::vector<BodyRecord*> bodies;
 };
 
-std::map<int, Way> CollectPaths(SkeletonSequence& sequence) {
-  std::map<int, Way> ways;
+std::map<int, PersonTrack> CollectPaths(SkeletonSequence& sequence) {
+  std::map<int, PersonTrack> tracks;
   for (SkeletonFrame& frame : sequence.frames) {
     for (BodyRecord& body : frame.bodies) {
       TimedPosture one{frame.time_s, {}, {}, {}};
@@ -117,11 +119,11 @@ std::map<int, Way> CollectPaths(SkeletonSequence& sequence) {
         one.posture.position_m[j] = body.joints[j]->position_m;
         one.orientation[j] = body.joints[j]->orientation.value_or(one.orientation[j]);
       }
-      ways[body.id].postures.push_back(one);
-      ways[body.id].bodies.push_back(&body);
+      tracks[body.id].postures.push_back(one);
+      tracks[body.id].bodies.push_back(&body);
     }
   }
-  return ways;
+  return tracks;
 }
 
 }  // namespace
@@ -133,12 +135,12 @@ LagOptions LagOptions::Of(int frames, bool keeps_bones) {
   return options;
 }
 
-TimedPosture SmoothedAt(std::span<const TimedPosture> way, size_t at, const LagOptions& options) {
-  const TimedPosture& own = way[at];
+TimedPosture SmoothedAt(std::span<const TimedPosture> track, size_t at, const LagOptions& options) {
+  const TimedPosture& own = track[at];
   TimedPosture smoothed = own;
   bool is_smoothed = false;
   for (size_t j = 0; j < kJointCount; ++j) {
-    const auto pairs = PairsAround(way, at, j, options);
+    const auto pairs = PairsAround(track, at, j, options);
     if (pairs.empty()) continue;
     is_smoothed = true;
     smoothed.posture.position_m[j] = MeanPosition(own, j, pairs);
@@ -165,13 +167,13 @@ TimedPosture SmoothedAt(std::span<const TimedPosture> way, size_t at, const LagO
 SkeletonSequence SmoothSequence(const SkeletonSequence& sequence, const LagOptions& options) {
   SkeletonSequence out = sequence;
   if (options.frames == 0) return out;
-  for (auto& [id, way] : CollectPaths(out)) {
-    for (size_t f = 0; f < way.postures.size(); ++f) {
-      const TimedPosture smoothed = SmoothedAt(way.postures, f, options);
+  for (auto& [id, track] : CollectPaths(out)) {
+    for (size_t f = 0; f < track.postures.size(); ++f) {
+      const TimedPosture smoothed = SmoothedAt(track.postures, f, options);
       for (size_t j = 0; j < kJointCount; ++j) {
         if (!smoothed.present[j]) continue;
-        way.bodies[f]->joints[j]->position_m = smoothed.posture.position_m[j];
-        auto& turn = way.bodies[f]->joints[j]->orientation;
+        track.bodies[f]->joints[j]->position_m = smoothed.posture.position_m[j];
+        auto& turn = track.bodies[f]->joints[j]->orientation;
         if (turn) turn = smoothed.orientation[j];
       }
     }

@@ -4,25 +4,25 @@
 #include "recon/skeleton_sequence.h"
 
 // Constants: widths are chosen on UI-PRMD by `ossa experiment sdk`, data = ["correct", "lag"],
-// which chooses them anew for each person on the other people.
+// which cross-validates them over people.
 
 namespace ossa::recon {
 
-/// Frames of lag of who has the whole recording: as many as the Gaussian is wide.
+/// Lag when the whole recording is available: as many frames as the Gaussian is wide.
 inline constexpr int kWholeRecording = -1;
 
-/// How a joint's way is smoothed where frames after it are known. A Gaussian over as many frames
-/// before as after (zero phase): what moves steadily stays where it is.
+/// Smoothing of joints when later frames are known: a Gaussian over equally many earlier and later
+/// frames (zero phase). Steady motion is unchanged.
 struct LagOptions {
-  int frames = 2;         // of lag, >= 0, or kWholeRecording; 0 leaves everything as it is
-  double sigma_s = 0.08;  // of the Gaussian, > 0
-  /// Two frames whose middle (the line between them, at the frame's time) is farther than this from
-  /// where the joint is say little of it, > 0: a jump, a turning point of a fast move.
+  int frames = 2;         // lag, >= 0, or kWholeRecording; 0 changes nothing
+  double sigma_s = 0.08;  // standard deviation of the Gaussian, > 0
+  /// A pair of frames whose interpolated position is farther than this from the joint gets little
+  /// weight, > 0: there is a jump or a turning point of a fast movement.
   double alike_m = 0.05;
-  bool keeps_bones = false;  // bones keep the lengths that they have in each frame
+  bool keeps_bones = false;  // keep the bone lengths of each frame
 
-  /// So many frames, up to 2, or the whole recording, with the widths above, which were chosen for
-  /// all of them (docs/benchmarks/reconstruction.md).
+  /// Options for a lag of up to 2 frames, or the whole recording, with the widths above, which were
+  /// chosen for all of them (docs/benchmarks/reconstruction.md).
   static LagOptions Of(int frames, bool keeps_bones);
 };
 
@@ -30,17 +30,17 @@ struct LagOptions {
 struct TimedPosture {
   double time_s = 0.0;
   Posture posture;             // camera space
-  JointArray<bool> present{};  // joints that are anywhere
+  JointArray<bool> present{};  // joints that have a position
   JointOrientations orientation;
 };
 
-/// The posture `at` of a person's way, times rising, smoothed by those around it; of frames at one
-/// time the nearest. A joint's frames end where it is absent, and where the person was away for
-/// longer than a quarter of a second.
-TimedPosture SmoothedAt(std::span<const TimedPosture> way, size_t at, const LagOptions& options);
+/// Posture number `at` of a person's track (times ascending), smoothed by its neighbours; of frames
+/// with equal times the nearest is used. Smoothing stops at frames without the joint, and at
+/// absences of the person of more than a quarter of a second.
+TimedPosture SmoothedAt(std::span<const TimedPosture> track, size_t at, const LagOptions& options);
 
-/// The whole recording so, every person by itself. States, confidences and whatever else a joint
-/// has stay.
+/// Smooths a whole recording, person by person. States, confidences and all other joint data are
+/// unchanged.
 SkeletonSequence SmoothSequence(const SkeletonSequence& sequence, const LagOptions& options);
 
 }  // namespace ossa::recon

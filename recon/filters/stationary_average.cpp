@@ -9,12 +9,12 @@ using Eigen::Vector3d;
 
 // Constants: by hand, checked on people who stand still in rendered clips.
 
-// Squared distance of two means that agree, in variances: a still joint is let go by mistake about
-// once in 200 frames, and is back a frame later.
+// Threshold on the squared distance of two means, in variances: a still joint is released by
+// mistake about once in 200 frames, and averaged again a frame later.
 constexpr double kSamePlace = 7.0;
-constexpr int kLongest = 60;           // frames a mean is of: people sway
-constexpr double kNoiseMemory = 0.05;  // share of a new observation in the noise
-constexpr double kGrossNoise = 4.0;    // times the usual: a jump, which says little about noise
+constexpr int kLongest = 60;           // frames in a mean, at most: people sway
+constexpr double kNoiseMemory = 0.05;  // share of a new observation in the noise estimate
+constexpr double kGrossNoise = 4.0;    // times the noise estimate: a jump, which is not noise
 constexpr double kLeastNoise_m = 1e-3;
 
 }  // namespace
@@ -23,13 +23,13 @@ const Vector3d& StationaryAverage::Before(int frames) const {
   return seen_m_[static_cast<size_t>((count_ - 1 - frames) % kWindow)];
 }
 
-// White noise has second differences of six times its variance; of the motion itself they hold
-// only the acceleration, millimetres a frame squared.
+// The second differences of white noise have six times its variance; motion adds only its
+// acceleration, millimetres per frame squared.
 void StationaryAverage::LearnNoise() {
   if (count_ < 3) return;
   const double now_m2 = (Before(0) - 2 * Before(1) + Before(2)).squaredNorm() / 6;
   const int pairs = count_ - 2;
-  if (pairs * kNoiseMemory < 1) {  // the plain mean of the first ones
+  if (pairs * kNoiseMemory < 1) {  // arithmetic mean of the first ones
     variance_m2_ += (now_m2 - variance_m2_) / pairs;
     return;
   }
@@ -38,7 +38,7 @@ void StationaryAverage::LearnNoise() {
   variance_m2_ += kNoiseMemory * (std::min(now_m2, most_m2) - variance_m2_);
 }
 
-// Whether the mean of the last observations is the same place as another mean of so many frames.
+// Whether the mean of the last `last` observations agrees with a mean over `frames` frames.
 bool StationaryAverage::IsSamePlace(int last, const Vector3d& mean_m, int frames) const {
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < last; ++i) sum += Before(i);

@@ -7,14 +7,13 @@
 
 namespace ossa::recon {
 
-/// One joint, averaged while it does not move.
+/// Averages one joint while it does not move.
 ///
-/// Where the forest sees a joint of somebody who stands still jumps from frame to frame without
-/// memory (white noise, 3 mm at the neck to 35 mm at a hidden knee), so second differences measure
-/// how much, whatever the joint does. The joint is still while the means of its last 1, 2, 4 ... 16
-/// observations all agree, within that noise, with the mean of the time before; then the mean of
-/// all is where it is. The first observation beyond the noise lets go: what moves passes unchanged
-/// and without lag.
+/// The forest's position of a person who stands still has white noise (3 mm at the neck to 35 mm at
+/// a hidden knee), so second differences measure its variance whatever the joint does. A joint is
+/// still while the means of its last 1, 2, 4 ... 16 observations all agree, within that noise, with
+/// the mean of the time before. Then the mean of all is returned. The first observation outside the
+/// noise ends averaging: moving joints pass unchanged and without lag.
 class StationaryAverage {
  public:
   Eigen::Vector3d Step(const Eigen::Vector3d& seen_m);
@@ -30,14 +29,14 @@ class StationaryAverage {
   bool StaysAtMean() const;
   bool HasComeToRest() const;
 
-  std::array<Eigen::Vector3d, kWindow> seen_m_;  // a ring
-  int count_ = 0;                                // ever seen
-  double variance_m2_ = 0.0;                     // of the noise, all three axes together
+  std::array<Eigen::Vector3d, kWindow> seen_m_;  // ring buffer
+  int count_ = 0;                                // observations so far
+  double variance_m2_ = 0.0;                     // noise, sum over the three axes
   Eigen::Vector3d mean_m_ = Eigen::Vector3d::Zero();
-  int frames_ = 0;  // the mean is of; 0 while it moves
+  int frames_ = 0;  // in the mean; 0 while the joint moves
 };
 
-/// The joints of one body; what is not tracked is left alone and forgotten.
+/// All joints of one body. Joints that are not tracked pass unchanged and are reset.
 class StationaryPosture {
  public:
   TrackedPosture Step(const TrackedPosture& seen, double time_s);

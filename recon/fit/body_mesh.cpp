@@ -16,11 +16,11 @@ namespace {
 
 constexpr ContainerFormat kMeshFormat = {
     {'O', 'S', 'S', 'A', 'M', 'S', '0', '0'}, BodyMesh::kVersion, "body mesh"};
-constexpr double kStep_m = 1e-4;     // places are stored so finely; by hand: finer than skin is
-constexpr double kWeightStep = 255;  // of a weight's byte, by definition
-constexpr int kLevel = 19;           // of zstd; by hand: the smallest files
+constexpr double kStep_m = 1e-4;     // resolution of positions; by hand: finer than skin is known
+constexpr double kWeightStep = 255;  // steps of a weight's byte, by definition
+constexpr int kLevel = 19;           // zstd level; by hand: the smallest files
 
-/// The numbers of a surface by which its mesh knows it: joints and landmarks, as they are stored.
+/// The numbers of a surface by which its mesh identifies it: joints and landmarks, as stored.
 std::vector<float> CollectOutline(const BodySurface& surface) {
   std::vector<float> outline;
   const auto add = [&](const ShapedPlace& place) {
@@ -140,7 +140,7 @@ size_t SegmentOfHumanBone(size_t bone) {
 std::vector<Eigen::Vector3d> PoseMesh(const BodyMesh& mesh, const SurfacePose& pose) {
   PosedSurface posed(mesh.surface);
   posed.PoseSegments(pose);
-  std::array<Eigen::Vector3d, kSegmentCount> rest_m;  // of each segment's joint
+  std::array<Eigen::Vector3d, kSegmentCount> rest_m;  // joint of each segment
   rest_m[0].setZero();
   for (size_t s = 1; s < kSegmentCount; ++s) {
     rest_m[s] = rest_m[ParentSegment(s)] + mesh.surface.joint[s].At(pose.shape);

@@ -11,7 +11,7 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: bounds, by hand: no body is larger, and any turn is within half a turn.
+// Constants: bounds, by hand: no body is larger, and no rotation exceeds half a turn.
 
 constexpr ContainerFormat kSurfaceFormat = {
     {'O', 'S', 'S', 'A', 'S', 'F', '0', '0'}, BodySurface::kVersion, "body surface"};
@@ -19,7 +19,7 @@ constexpr double kLargest_m = 3.0;
 constexpr double kLargestTurn_rad = 3.15;
 constexpr double kLargestInformation = 1e6;  // 1 / rad^2
 
-// Numbers are stored as float: a hundredth of a millimetre is finer than any body is known.
+// Stored as float: a hundredth of a millimetre is finer than any body is known.
 template <typename Matrix>
 void Put(PayloadWriter& out, const Matrix& values) {
   for (Eigen::Index i = 0; i < values.size(); ++i) out.Put(static_cast<float>(values(i)));

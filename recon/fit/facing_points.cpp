@@ -14,7 +14,7 @@ namespace {
 constexpr float kFarAway_m = 1e6F;  // derived: farther than any sensor sees
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// By the part labels of Shotton et al. 2011 (recon/body/parts.h).
+// Adjacent parts, by the labels of Shotton et al. 2011 (recon/body/parts.h).
 constexpr std::array<std::array<uint8_t, 2>, 40> kTouching = {
     {{1, 2},   {1, 3},   {2, 4},   {3, 4},   {3, 5},   {4, 5},   {5, 6},   {5, 7},
      {5, 18},  {5, 19},  {6, 8},   {6, 18},  {8, 12},  {12, 10}, {10, 14}, {14, 16},
@@ -22,7 +22,7 @@ constexpr std::array<std::array<uint8_t, 2>, 40> kTouching = {
      {19, 21}, {20, 21}, {20, 22}, {21, 23}, {22, 23}, {22, 26}, {26, 24}, {24, 28},
      {28, 30}, {23, 27}, {27, 25}, {25, 29}, {29, 31}, {8, 18},  {9, 19},  {16, 14}}};
 
-// Of each part those that it touches, and itself: a bit each.
+// Bit mask of each part: itself and the parts adjacent to it.
 constexpr std::array<uint32_t, kPartCount + 1> kAdjacent = [] {
   std::array<uint32_t, kPartCount + 1> adjacent{};
   for (uint32_t i = 0; i < adjacent.size(); ++i) adjacent[i] = uint32_t{1} << i;
@@ -33,7 +33,7 @@ constexpr std::array<uint32_t, kPartCount + 1> kAdjacent = [] {
   return adjacent;
 }();
 
-// Lanes of three coordinates.
+// Coordinates of kLanes points.
 struct PlaceLanes {
   Lanes x, y, z;
 
@@ -44,14 +44,14 @@ struct PlaceLanes {
   }
 };
 
-// What points are to be near to, and what counts as farther.
+// A query point, and the distance penalties.
 struct Search {
   float x_m, y_m, z_m;
-  uint8_t part;  // 0: any
+  uint8_t part;  // query part; 0: any
   float adjacent_m2, other_m2;
 };
 
-// What is nearest so far.
+// The nearest point so far.
 struct Found {
   float square_m2 = kInfinity;
   int32_t point = -1;
@@ -67,7 +67,7 @@ struct Found {
   return of[0];
 }
 
-// Of a run's points. `more` is added to each square.
+// Searches the points of a run. `more` is added to each squared distance.
 [[gnu::always_inline]] inline void SearchRun(const FacingPoints::Places& places_m,
                                              const FacingPoints::Run& run, const Search& search,
                                              float more, Found* found) {
@@ -90,7 +90,7 @@ struct Found {
   found->point = static_cast<int32_t>(run.begin + l) + number[l];
 }
 
-// Adds the squares of how far a coordinate lies outside of each range.
+// Adds the squared distance of a coordinate from each interval.
 [[gnu::always_inline]] inline void AddBeyond(const Lanes& low, const Lanes& high, float at,
                                              Lanes* squares) {
   const Lanes below = low - at, above = at - high;
@@ -99,7 +99,7 @@ struct Found {
   *squares += off * off;
 }
 
-// How much farther points of each run's part count. The pixel's own part was searched already.
+// The penalty of each run's part. The pixel's own part was searched already.
 [[gnu::always_inline]] inline void CountFarther(const Search& search, uint32_t adjacent,
                                                 const IntLanes& part, Lanes* more) {
   *more = Lanes{};
@@ -119,7 +119,7 @@ OSSA_CPU_DISPATCH int32_t FindNearest(const FacingPoints::Places& places_m,
                                       const FacingPoints::Runs& runs, const Search& search,
                                       uint32_t adjacent) {
   Found found;
-  // The pixel's own part first: what is found there spares most of the others.
+  // The pixel's own part first: a near point there prunes most other parts.
   for (const FacingPoints::Run& run : runs.runs) {
     if (run.part == search.part) SearchRun(places_m, run, search, 0.0F, &found);
   }

@@ -10,27 +10,27 @@
 
 namespace ossa::recon {
 
-/// The points of a posed surface that face the camera, part by part, for the search of the nearest.
+/// The points of a posed surface that face the camera, grouped by part, for nearest-neighbour
+/// search.
 class FacingPoints {
  public:
   void Gather(const PosedSurface& posed);
-  /// The point nearest to a pixel, where points of parts other than the pixel's count as farther;
-  /// -1 where no point faces the camera. Of points equally near to a micrometre it may be any.
+  /// The point nearest to a pixel, with a distance penalty for parts other than the pixel's; -1 if
+  /// no point faces the camera. Ties within a micrometre are resolved arbitrarily.
   int Nearest(const SeenPerson::Pixel& pixel, const SurfaceFitOptions& options) const;
-  /// Their numbers among the surface's points.
+  /// Their indices among the surface's points.
   const std::vector<uint32_t>& points() const { return points_; }
 
   using Places = std::array<std::vector<float>, 3>;  // x, y, z
 
-  /// Points of one part. Their places begin where lanes do, and those that fill the last lanes are
-  /// far away.
+  /// The points of one part. Runs are aligned to lanes; padding points are far away.
   struct Run {
-    size_t begin = 0, end = 0;  // of the points
+    size_t begin = 0, end = 0;  // indices of the points
     size_t first_place = 0;
     uint8_t part = 0;
   };
 
-  /// With the box around each run, for lanes: those that fill the last lanes are far away.
+  /// Runs with their bounding boxes as lanes; padding boxes are far away.
   struct Runs {
     std::vector<Run> runs;
     std::vector<int32_t> part;

@@ -6,13 +6,13 @@
 namespace ossa::recon {
 namespace {
 
-// Geman and McClure 1987: the weight of a residual of this square.
+// Geman and McClure 1987: the weight of a residual with this square.
 double RobustWeight(double squared, double scale) {
   const double share = scale * scale / (scale * scale + squared);
   return share * share;
 }
 
-// Two directions across a unit vector, and across each other.
+// Two unit vectors perpendicular to `unit` and to each other.
 std::array<Eigen::Vector3d, 2> Across(const Eigen::Vector3d& unit) {
   const Eigen::Vector3d a = unit.unitOrthogonal();
   return {a, unit.cross(a)};
@@ -109,8 +109,7 @@ void AddJoints(const PosedSurface& posed, const SurfaceFitInput& input,
 }
 
 double ComputeShapeWeight(const SurfaceFitInput& input, const SurfaceFitOptions& options) {
-  constexpr double kMostFrames =
-      20.0;  // by hand, frames: a person may be taken for another for a while
+  constexpr double kMostFrames = 20.0;  // by hand, frames: people may be confused for a while
   const double frames = std::min(kMostFrames, static_cast<double>(input.shape_frames));
   return options.shape_weight * (1.0 + frames);
 }
@@ -119,7 +118,8 @@ void AddPriors(const PosedSurface& posed, const SurfaceFitInput& input,
                const SurfaceFitOptions& options, NormalEquations& equations) {
   const BodySurface& surface = posed.surface();
   for (size_t s = 1; s < kSegmentCount; ++s) {
-    // A turn in the camera's axes changes the rotation vector by about the turn in the parent's.
+    // A small rotation in camera axes changes the rotation vector by about the same rotation in the
+    // parent's axes.
     const Eigen::Matrix3d& camera_from = posed.camera_from(ParentSegment(s));
     const Eigen::Vector3d to_rad =
         surface.turn_mean[s] - ToRotationVector(posed.pose().parent_from_segment[s]);

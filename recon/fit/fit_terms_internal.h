@@ -7,24 +7,24 @@
 
 namespace ossa::recon {
 
-/// The mean of the pixels' weighted squares along the normal: 1 where they are as far off as was
-/// expected of them; 0 without pixels.
+/// Adds the pixel terms. Returns the mean of their weighted squared residuals along the normal: 1
+/// if these are as large as expected; 0 without pixels.
 double AddPixels(const PosedSurface& posed, const FacingPoints& facing, const SeenPerson& seen,
                  const SurfaceFitOptions& options, NormalEquations& equations);
 void AddSilhouette(const PosedSurface& posed, const SeenPerson& seen,
                    const SurfaceFitOptions& options, NormalEquations& equations);
-/// How many times as far off as a sure one a joint that the fit starts from is expected to be, by
-/// its confidence (none counts as 0): 1 or more.
+/// The factor >= 1 by which a start joint's expected error exceeds that of a joint of confidence 1
+/// (no confidence counts as 0).
 double ComputeDoubt(const SurfaceFitInput& input, const SurfaceFitOptions& options, size_t joint);
-/// How far off a joint that the fit starts from is expected to be, along each axis: by its
-/// confidence (none counts as 0) and by the size of a pixel there.
+/// Expected variance of a start joint along each axis, from its confidence (none counts as 0) and
+/// the size of a pixel at its depth.
 double ComputeJointVariance_m2(const SurfaceFitInput& input, const SurfaceFitOptions& options,
                                size_t joint);
 void AddJoints(const PosedSurface& posed, const SurfaceFitInput& input,
                const SurfaceFitOptions& options, NormalEquations& equations);
-/// How much the shape that is known counts, against a component's variance.
+/// Weight of the known shape relative to the variance of a shape component.
 double ComputeShapeWeight(const SurfaceFitInput& input, const SurfaceFitOptions& options);
-/// After NormalEquations::Assemble.
+/// Adds the priors; call it after NormalEquations::Assemble.
 void AddPriors(const PosedSurface& posed, const SurfaceFitInput& input,
                const SurfaceFitOptions& options, NormalEquations& equations);
 

@@ -8,10 +8,10 @@ namespace {
 
 constexpr int kShapeAt = kFitUnknowns - kShapeCount;
 
-// Where a segment's own turn begins among the unknowns; segment > 0.
+// Index of a segment's own rotation among the unknowns; segment > 0.
 constexpr int TurnAt(size_t segment) { return 6 + 3 * (static_cast<int>(segment) - 1); }
 
-// Turns about a joint as motion of the whole space: turn about the origin, and shift.
+// Rotations about a joint as rigid motions about the origin: rotation and translation.
 Eigen::Matrix<double, 6, 3> MotionOfTurnAbout(const Eigen::Vector3d& joint_m) {
   Eigen::Matrix<double, 6, 3> motion;
   motion.topRows<3>().setIdentity();
@@ -86,7 +86,7 @@ void NormalEquations::AddShape(double weight, const ShapeVector& to) {
 }
 
 FitStep NormalEquations::Solve(double damping) {
-  constexpr double kLeast = 1e-6;  // by hand, a weight, so that what nothing tells is solvable
+  constexpr double kLeast = 1e-6;  // by hand, a weight: keeps unobserved unknowns solvable
   factor_ = matrix_;
   factor_.diagonal() *= 1.0 + damping;
   factor_.diagonal().array() += kLeast;
@@ -134,8 +134,8 @@ ShapeVector NormalEquations::ShapeGradient() const {
 }
 
 SurfacePose Moved(const PosedSurface& posed, const FitStep& step, double most_rad) {
-  // Standard deviations of shape; by hand. The first component is size: of people from 1.1 to 2.1 m
-  // more than a normal distribution has so far out.
+  // Standard deviations of shape; by hand. The first component is size: people from 1.1 to 2.1 m
+  // are more spread out than a normal distribution.
   constexpr double kFarthest = 3.0, kFarthestSize = 5.0;
   SurfacePose pose = posed.pose();
   const Eigen::Matrix3d turn = ToRotation(step.head<3>());

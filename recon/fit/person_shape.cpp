@@ -13,14 +13,15 @@ namespace {
 
 constexpr ContainerFormat kPersonFormat = {
     {'O', 'S', 'S', 'A', 'P', 'E', '0', '0'}, 1, "person file"};
-// Constants: bounds of what a file may say, by hand.
+// Constants: bounds of a file's values, by hand.
 constexpr double kLargestShape = 10.0;  // standard deviations
 constexpr double kLargestSum =
     1e12;  // of informations, 1 / standard deviations^2, and votes; by hand
 constexpr int kMostFrames = 1'000'000'000;
 
-// Standard deviation of what no frame tells of stature: hair, soles and bodies that are none of the
-// learned ones. On rendered people of train shapes (`ossa experiment fit`, docs/benchmarks).
+// Standard deviation of stature errors that no number of frames reduces: hair, soles, and bodies
+// outside the learned shape space. On rendered people of train shapes (`ossa experiment fit`,
+// docs/benchmarks).
 constexpr double kStatureModel_m = 0.02;
 
 double GetNumber(PayloadReader& in, const char* field, double least, double most) {
@@ -38,7 +39,7 @@ Matrix GetNumbers(PayloadReader& in, const char* field, double largest) {
   return values;
 }
 
-// What tells one body from another: components of shape mean nothing without it.
+// Identifies a body surface: shape components are meaningful only with it.
 std::array<float, 1 + kShapeCount> MarkOf(const BodySurface& surface) {
   std::array<float, 1 + kShapeCount> mark{};
   mark[0] = static_cast<float>(surface.stature_mean_m);
@@ -59,7 +60,7 @@ void CheckInformation(PayloadReader& in, const ShapeMatrix& information) {
 }  // namespace
 
 void PersonShape::Add(const SurfaceFit& fit) {
-  constexpr double kMostWeight = 600.0;  // by hand, frames: what is known changes little
+  constexpr double kMostWeight = 600.0;  // by hand, frames: a well-known shape changes little
   const double added = std::max(0.0, fit.score);
   if (!(added > 0.0)) return;
   const double kept = std::min(1.0, (kMostWeight - added) / std::max(added, weight));
@@ -71,7 +72,7 @@ void PersonShape::Add(const SurfaceFit& fit) {
 }
 
 ShapeVector PersonShape::Likeliest() const {
-  // The mean body counts once, as it was learned.
+  // The shape prior (mean body) counts once.
   const Eigen::LLT<ShapeMatrix> solver(information + ShapeMatrix::Identity());
   return solver.info() == Eigen::Success ? ShapeVector(solver.solve(vote)) : shape;
 }

@@ -11,7 +11,7 @@ using Rotations = std::array<Matrix3d, kSegmentCount>;
 
 constexpr size_t Number(Segment segment) { return static_cast<size_t>(segment); }
 
-// Rotation whose x axis points to the left and whose y axis points up; any where both are one.
+// Rotation with x to the left and y up; arbitrary if both are parallel.
 Matrix3d TrunkRotation(const Vector3d& left, const Vector3d& up) {
   const Vector3d y = up.norm() > 0.0 ? Vector3d(up.normalized()) : Vector3d::UnitY();
   Vector3d x = left - y * y.dot(left);
@@ -21,21 +21,22 @@ Matrix3d TrunkRotation(const Vector3d& left, const Vector3d& up) {
   return rotation;
 }
 
-// Aims segments one after the other.
+// Aims segments one after another.
 struct Aimer {
   const BodySurface& surface;
   const Posture& joints_m;
   Rotations camera_from;
 
-  // From the parent's rotation and the mean turn on, so that `rest` points along `seen`.
+  // Rotates from the parent's rotation and the mean joint rotation so that `rest` points along
+  // `seen`.
   void Aim(size_t segment, const Vector3d& rest, const Vector3d& seen) {
     const Matrix3d carried =
         camera_from[ParentSegment(segment)] * ToRotation(surface.turn_mean[segment]);
     camera_from[segment] =
         Eigen::Quaterniond::FromTwoVectors(carried * rest, seen).toRotationMatrix() * carried;
   }
-  // Three segments from `first` on whose joints are those from `joint` on, the last one's end being
-  // the joint after them.
+  // Aims three segments from `first` on; their joints are those from `joint` on, and the last one
+  // ends in the joint after these.
   void AimLimb(size_t first, size_t joint) {
     for (size_t k = 0; k < 3; ++k) {
       const Vector3d& rest =

@@ -3,9 +3,9 @@
 
 namespace ossa::recon {
 
-/// A pose of the mean body near to joints (camera space, metres; all finite): the trunk by hips and
-/// shoulders, then each limb's segments aimed at their joints with the least twist. Inverse
-/// kinematics to start from, not a fit.
+/// An initial pose of the mean body near the joints (camera space, metres; all finite), by inverse
+/// kinematics: the trunk from hips and shoulders, then each limb segment aimed at its joint with
+/// the smallest twist.
 SurfacePose PoseFromJoints(const BodySurface& surface, const Posture& joints_m);
 
 }  // namespace ossa::recon

@@ -5,7 +5,7 @@
 namespace ossa::recon {
 
 Eigen::Matrix3d ToRotation(const Eigen::Vector3d& turn_rad) {
-  constexpr double kNone_rad = 1e-12;  // by hand: the axis is lost in rounding
+  constexpr double kNone_rad = 1e-12;  // by hand: below, the axis is undefined by rounding
   const double angle_rad = turn_rad.norm();
   if (angle_rad < kNone_rad) return Eigen::Matrix3d::Identity();
   return Eigen::AngleAxisd(angle_rad, turn_rad / angle_rad).toRotationMatrix();

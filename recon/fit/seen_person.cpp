@@ -9,12 +9,12 @@ namespace {
 
 // Constants: chosen by hand.
 
-constexpr int kMostCells = 96;        // a side: finer than limbs are broad
-constexpr double kNearest_m = 0.1;    // no sensor sees nearer
-constexpr double kOccluder_m = 0.05;  // what is not farther than this behind a place may hide it
+constexpr int kMostCells = 96;        // grid size at most: cells are narrower than limbs
+constexpr double kNearest_m = 0.1;    // points nearer than this are not looked up
+constexpr double kOccluder_m = 0.05;  // a surface up to this far behind a point may occlude it
 
-// Column and row of each pixel; a division only where a row begins, for a person near the camera
-// has tens of thousands.
+// Calls `use` with column and row of each pixel; divides only once per row, because a person near
+// the camera has tens of thousands of pixels.
 template <typename Use>
 void ForEachPixel(std::span<const int32_t> pixels, int32_t width, const Use& use) {
   int32_t v = 0, row_begin = 0;
@@ -35,7 +35,7 @@ void SeenPerson::Look(const SurfaceFitInput& input, const SurfaceFitOptions& opt
   MakeSilhouette(input);
 }
 
-// Every so many pixels both ways.
+// Subsamples the pixels with one stride in rows and columns.
 void SeenPerson::TakePixels(const SurfaceFitInput& input, const SurfaceFitOptions& options) {
   pixels_.clear();
   const depth::Camera& camera = input.depth->camera;
@@ -86,8 +86,8 @@ void SeenPerson::MakeSilhouette(const SurfaceFitInput& input) {
   FindNearest();
 }
 
-// Hands on to each cell of a row what the neighbour before it has, as the sweep goes, and from
-// another row, where it is next to this one, what the three neighbours there have.
+// Propagates nearest cells along row `y` in sweep direction, and from the three neighbours in
+// `from_y` if that is the row before it.
 template <bool kFromAnother>
 void SeenPerson::SweepRow(int y, int from_y, bool rightwards) {
   const int step = rightwards ? 1 : -1, first = rightwards ? 0 : width_ - 1;
@@ -112,8 +112,8 @@ void SeenPerson::SweepRow(int y, int from_y, bool rightwards) {
   }
 }
 
-// Danielsson 1980, "Euclidean distance mapping": two sweeps each of which hands the nearest cell on
-// to neighbours.
+// Danielsson 1980, "Euclidean distance mapping": two sweeps propagate the nearest person cell to
+// neighbours.
 void SeenPerson::FindNearest() {
   for (int y = 0; y < height_; ++y) {
     SweepRow<true>(y, y - 1, true);

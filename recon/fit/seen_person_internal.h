@@ -8,34 +8,35 @@
 
 namespace ossa::recon {
 
-/// What the image shows of the person, thinned out for the fit. Holds its memory from frame to
-/// frame.
+/// The person's pixels, subsampled for the fit, and the silhouette. Reuses its memory between
+/// frames.
 class SeenPerson {
  public:
   struct Pixel {
     Eigen::Vector3d at_m;  // camera space
-    uint8_t part = 0;      // 0: not known
+    uint8_t part = 0;      // 0: unknown
     double weight = 0.0;   // 1 / m^2
   };
 
   void Look(const SurfaceFitInput& input, const SurfaceFitOptions& options);
 
   const std::vector<Pixel>& pixels() const { return pixels_; }
-  /// Pixels that stand for one of most_pixels: weights are made as if there were no more.
+  /// Weight factor that normalises more than most_pixels pixels to the weight of most_pixels.
   double pixel_share() const { return pixel_share_; }
 
-  /// What the camera sees at the pixel of a place.
+  /// What the camera sees at the projection of a point.
   enum class Sight {
-    kNothing,    // outside of the image or of what is near the person, or behind the camera
+    kNothing,    // outside the image or the grid, or behind the camera
     kPerson,     // this person's surface
-    kBeside,     // farther things beside the person
-    kNoReading,  // beside the person, where the sensor says nothing
-    kHidden,     // something before it
+    kBeside,     // background beside the person
+    kNoReading,  // no reading beside the person
+    kHidden,     // occluded
   };
   struct SightAt {
     Sight sight = Sight::kNothing;
-    double behind_m = 0.0;  // of kPerson: how much farther than the place the surface is
-    /// Of kBeside and kNoReading: from the place to the silhouette, across the line of sight.
+    double behind_m = 0.0;  // of kPerson: depth of the surface minus that of the point
+    /// Of kBeside and kNoReading: displacement to the silhouette, perpendicular to the line of
+    /// sight.
     Eigen::Vector3d way_m = Eigen::Vector3d::Zero();
   };
   SightAt At(const Eigen::Vector3d& place_m) const;
@@ -60,11 +61,11 @@ class SeenPerson {
   const depth::DepthFrame* frame_ = nullptr;
   std::vector<Pixel> pixels_;
   double pixel_share_ = 1.0;
-  // The silhouette on a grid of cells around the person.
+  // The silhouette as a grid of cells around the person.
   int left_ = 0, top_ = 0, cell_px_ = 1, width_ = 0, height_ = 0;
-  // Of each cell, and of a border around all, the nearest that is the person's.
+  // The nearest person cell of each cell, including a border around the grid.
   std::vector<Cell> nearest_;
-  std::vector<int16_t> column_cell_;  // of each column of the image
+  std::vector<int16_t> column_cell_;  // grid column of each image column
 };
 
 }  // namespace ossa::recon

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Where the limb that a segment belongs to points in a T-pose; nothing of trunk, head and feet.
+/// Direction of a limb's segment in a T-pose; none for trunk, head and feet.
 std::optional<Vector3d> LimbDirection(Segment segment) {
   using enum Segment;
   switch (segment) {
@@ -36,15 +36,15 @@ std::optional<Vector3d> LimbDirection(Segment segment) {
   }
 }
 
-/// The landmark that ends the bone along a segment of a limb: both are numbered alike but for the
-/// legs, whose segments begin in the hips.
+/// The landmark at the end of a limb segment's bone: both have the same order, except that leg
+/// segments start at the hips.
 size_t EndOf(Segment segment) {
   const auto s = static_cast<size_t>(segment);
   if (segment >= Segment::kRightThigh) return s + 2;
   return segment >= Segment::kLeftThigh ? s + 1 : s;
 }
 
-/// Each segment turned from the rest pose with the least turn; trunk and feet not at all.
+/// Each limb segment rotated from the rest pose by the smallest rotation; trunk and feet unchanged.
 SurfacePose ComputeTPose(const BodySurface& surface, const ShapeVector& shape) {
   PosedSurface rest(surface);
   SurfacePose pose;
@@ -65,16 +65,16 @@ SurfacePose ComputeTPose(const BodySurface& surface, const ShapeVector& shape) {
   return pose;
 }
 
-/// How a bone's surroundings grow: `girth` across it, to its own length along it.
+/// Scale of the region around a bone: `girth` across it, `stretch` along it.
 Matrix3d Growth(const Vector3d& along, double stretch, double girth) {
   return girth * Matrix3d::Identity() + (stretch - girth) * along * along.transpose();
 }
 
-/// From the mesh's own T-pose to that of a person of other bones.
+/// Deforms the mesh's own T-pose to a person's bone lengths.
 class Fitting {
  public:
   Fitting(const Posture& from, const BoneLengths& lengths_m) : from_(from) {
-    // Factors, by hand: a length that was measured wrongly shall not tear the skin.
+    // Factors, by hand: limits the damage of a wrongly measured length.
     constexpr double kLeast = 0.5, kMost = 2.0;
     const BoneLengths own_m = MeasureBoneLengths(from);
     double wanted_m = 0.0, sum_m = 0.0;
@@ -117,7 +117,7 @@ class Fitting {
 std::vector<Vector3d> ComputeNormals(const BodyMesh& mesh, const std::vector<Vector3d>& at_m) {
   std::vector<Vector3d> normals(at_m.size(), Vector3d::Zero());
   for (const auto& [a, b, c] : mesh.triangles) {
-    const Vector3d normal = (at_m[b] - at_m[a]).cross(at_m[c] - at_m[a]);  // by area
+    const Vector3d normal = (at_m[b] - at_m[a]).cross(at_m[c] - at_m[a]);  // weighted by area
     for (const uint32_t corner : {a, b, c}) normals[corner] += normal;
   }
   for (Vector3d& normal : normals) {

@@ -20,15 +20,16 @@ namespace {
 
 // Constants: chosen by hand.
 
-constexpr double kExplained_m = 0.03;    // a pixel this near to the surface is explained by it
-constexpr double kFarAside_m = 0.06;     // a point farther off than this explains no pixel
-constexpr double kSeenThrough_m = 0.08;  // a surface this far behind a point is seen through it
-constexpr double kUnexplained_m = 1.0;   // said of a pixel that nothing explains
-constexpr double kUnknown_m2 = 1.0;      // variance of a joint that nothing is known of
+constexpr double kExplained_m = 0.03;    // a pixel is explained by a surface this near
+constexpr double kFarAside_m = 0.06;     // a point farther aside than this explains no pixel
+constexpr double kSeenThrough_m = 0.08;  // free space: the surface is this far behind the point
+constexpr double kUnexplained_m = 1.0;   // residual of a pixel that nothing explains
+constexpr double kUnknown_m2 = 1.0;      // variance of an unknown joint
 
-// Standard deviation along each axis of what no pixel tells, metres: where in a body that is made
-// of rigid pieces the joints are. On rendered people of train shapes in tight and in loose clothes
-// (`ossa experiment fit`, train_shapes), so that 68 and 95 % of the errors are within what is said.
+// Standard deviation along each axis of the model error of each joint, metres: joint locations
+// inside a body of rigid segments. On rendered people of train shapes in tight and in loose clothes
+// (`ossa experiment fit`, train_shapes), chosen so that 68 and 95 % of the errors are within the
+// stated ones.
 constexpr JointArray<double> kModel_m = [] {
   constexpr double kArm_m[] = {0.006, 0.005, 0.006, 0.007};  // shoulder, elbow, wrist, hand
   constexpr double kLeg_m[] = {0.013, 0.020, 0.010, 0.003};  // hip, knee, ankle, foot
@@ -43,10 +44,10 @@ constexpr JointArray<double> kModel_m = [] {
   return sigma_m;
 }();
 
-// Squared distance of a joint from where it should be, over its variance along an axis: the median.
-// By definition, of chi-square of three degrees.
+// Median of a joint's squared distance over its variance along an axis. By definition, of
+// chi-square with three degrees of freedom.
 constexpr double kMedianChi2 = 2.366;
-// Joints to start from are never surer than this along an axis. By hand.
+// Smallest standard deviation of a start joint along an axis. By hand.
 constexpr double kSurest_m = 0.005;
 
 void CheckPositive(const char* name, double value) {
@@ -121,12 +122,12 @@ struct SurfaceFitter::Impl {
     facing.Gather(posed);
   }
   void StartFrom(const SurfaceFitInput& input);
-  // All terms; how far off pixels are, see AddPixels.
+  // Adds all terms. Returns the pixel residual of AddPixels.
   double AddAll(const SurfaceFitInput& input, const SurfaceFitOptions& with);
   void Iterate(const SurfaceFitInput& input, const SurfaceFitOptions& with, int times);
   void Retry(const SurfaceFitInput& input, SurfaceFit& fit);
   void Judge(SurfaceFit& fit);
-  void TellErrors(const SurfaceFitInput& input, SurfaceFit& fit);
+  void EstimateErrors(const SurfaceFitInput& input, SurfaceFit& fit);
   double StartVariance_m2(const SurfaceFitInput& input) const;
   Posture Blend(const SurfaceFitInput& input) const;
   double SeenThroughShare() const;
@@ -165,7 +166,7 @@ void SurfaceFitter::Impl::Iterate(const SurfaceFitInput& input, const SurfaceFit
   }
 }
 
-// Of the points that face the camera.
+// Share of the points facing the camera that lie in free space.
 double SurfaceFitter::Impl::SeenThroughShare() const {
   size_t seen_count = 0, through = 0;
   for (const uint32_t i : facing.points()) {
@@ -186,7 +187,7 @@ void SurfaceFitter::Impl::Judge(SurfaceFit& fit) {
   size_t explained = 0;
   for (const SeenPerson::Pixel& pixel : seen.pixels()) {
     double distance_m = kUnexplained_m;
-    const int found = facing.Nearest({pixel.at_m, 0, 0.0}, options);  // of whichever part
+    const int found = facing.Nearest({pixel.at_m, 0, 0.0}, options);  // of any part
     if (found >= 0) {
       const auto i = static_cast<size_t>(found);
       const Eigen::Vector3d off_m = posed.at_m()[i] - pixel.at_m;
@@ -229,9 +230,9 @@ void SurfaceFitter::Impl::Retry(const SurfaceFitInput& input, SurfaceFit& fit) {
   fit.iterations = 2 * as_many;
 }
 
-// At the end of the fit. Pixels that are farther off than was expected make everything less sure;
-// nearer ones make nothing surer, for most of what a fit does not know they do not tell, either.
-void SurfaceFitter::Impl::TellErrors(const SurfaceFitInput& input, SurfaceFit& fit) {
+// Estimates the errors of the finished fit. Pixel residuals above the expected ones increase all
+// errors. Smaller ones do not reduce them, because pixels do not show most of a fit's errors.
+void SurfaceFitter::Impl::EstimateErrors(const SurfaceFitInput& input, SurfaceFit& fit) {
   const double scale = std::max(1.0, AddAll(input, options));
   const bool solvable = equations.Factor();
   const BodySurface& surface = posed.surface();
@@ -251,8 +252,8 @@ void SurfaceFitter::Impl::TellErrors(const SurfaceFitInput& input, SurfaceFit& f
       (information * fit.pose.shape - equations.ShapeGradient() - known * input.shape) / scale;
 }
 
-// How far off, along an axis, the sure ones of the joints that the fit started from are in this
-// image: the less a body can be where they say, the farther. Standard deviation, squared.
+// Variance along an axis of the start joints of confidence 1 in this image: the less compatible
+// they are with a body, the larger.
 double SurfaceFitter::Impl::StartVariance_m2(const SurfaceFitInput& input) const {
   std::array<double, kJointCount> off_m2{};
   size_t count = 0;
@@ -302,7 +303,7 @@ std::optional<SurfaceFit> SurfaceFitter::Fit(const SurfaceFitInput& input) {
   m.Judge(fit);
   fit.iterations = m.options.start_iterations + m.options.iterations;
   if (m.options.retry && fit.score < m.options.poor_score) m.Retry(input, fit);
-  m.TellErrors(input, fit);
+  m.EstimateErrors(input, fit);
   fit.joints_m = m.posed.Landmarks();
   fit.blended_m = m.Blend(input);
   for (size_t s = 0; s < kSegmentCount; ++s) {

@@ -45,7 +45,7 @@ std::vector<SightedPerson> BodyAssociation::Update(std::span<const BodySighting>
   Persons persons;
   std::vector<const BodySighting*> unknown;
   KeepKnown(sightings, persons, unknown);
-  PlaceUnknown(std::move(unknown), persons);
+  AssignUnknown(std::move(unknown), persons);
   MergePersons(persons);
   std::vector<SightedPerson> seen;
   for (auto& [id, person] : persons) {
@@ -67,7 +67,7 @@ void BodyAssociation::KeepKnown(std::span<const BodySighting> sightings, Persons
     }
     SightedPerson& person = persons[known->second];
     person.id = known->second;
-    if (IsSeenBy(person, sighting.camera)) {  // by a body that has an id of its own since
+    if (IsSeenBy(person, sighting.camera)) {  // by a body that got a new id since
       person_of_.erase(known);
       unknown.push_back(&sighting);
       continue;
@@ -84,8 +84,9 @@ void BodyAssociation::KeepKnown(std::span<const BodySighting> sightings, Persons
   }
 }
 
-/// Nearest first; who is near nobody is somebody new, whom the next may join.
-void BodyAssociation::PlaceUnknown(std::vector<const BodySighting*> unknown, Persons& persons) {
+/// Assigns the nearest bodies first. A body that is near no person becomes a new one, which later
+/// bodies may join.
+void BodyAssociation::AssignUnknown(std::vector<const BodySighting*> unknown, Persons& persons) {
   while (!unknown.empty()) {
     double nearest_m = options_.same_m;
     size_t which = 0;
@@ -129,7 +130,7 @@ void BodyAssociation::MergePersons(Persons& persons) {
       b = persons.erase(b);
     }
   }
-  Persons renamed;  // by the ids they have now
+  Persons renamed;  // by current ids
   for (auto& [id, person] : persons) renamed[person.id] = std::move(person);
   persons = std::move(renamed);
 }

@@ -15,24 +15,24 @@ struct AssociationOptions {
   int frames_to_part = 9;  // in a row above the latter, or below the former: 0.3 s; by hand
 };
 
-/// One person at one moment, by the cameras that see them.
+/// One person at one time, as seen by several cameras.
 struct SightedPerson {
   int id = 0;
-  std::vector<const BodySighting*> sightings;  // in order of their cameras
+  std::vector<const BodySighting*> sightings;  // in order of cameras
 };
 
-/// Which bodies of which cameras are the same person, from moment to moment. Each camera's body
-/// stays with its person until it has been far from what the other cameras see of them for a while;
-/// a new one joins the nearest person that its camera does not see otherwise, or is a new person.
-/// Of two persons whom no camera sees at once and who have been at one place for a while, the
-/// younger becomes the older. A person's id is that which camera 0 gave them, if it was the first
-/// and the id is free, else the lowest that no person had.
+/// Associates the bodies of several cameras with persons, over time. A camera's body stays with its
+/// person until it has been far from the other cameras' views of that person for a while. A new
+/// body joins the nearest person that its camera does not see otherwise, or becomes a new person.
+/// If two persons are never seen by one camera at once and have been at one place for a while, the
+/// younger is merged into the older. A person's id is the one that camera 0 assigned, if camera 0
+/// saw the person first and the id is free; else the lowest unused one.
 class BodyAssociation {
  public:
   explicit BodyAssociation(const AssociationOptions& options = {}) : options_(options) {}
 
-  /// `sightings` in order of their cameras; they must outlive what is returned. A body that is far
-  /// from its person, and not yet another's, is nobody's this time. In order of ids.
+  /// `sightings` in order of cameras; they must outlive the result. A body that is far from its
+  /// person but not yet reassigned is left out of this result. In order of ids.
   std::vector<SightedPerson> Update(std::span<const BodySighting> sightings);
 
  private:
@@ -41,7 +41,7 @@ class BodyAssociation {
 
   void KeepKnown(std::span<const BodySighting> sightings, Persons& persons,
                  std::vector<const BodySighting*>& unknown);
-  void PlaceUnknown(std::vector<const BodySighting*> unknown, Persons& persons);
+  void AssignUnknown(std::vector<const BodySighting*> unknown, Persons& persons);
   bool HaveBeenTogether(const SightedPerson& a, const SightedPerson& b);
   void MergePersons(Persons& persons);
   void Rename(int from, int to);
@@ -50,8 +50,8 @@ class BodyAssociation {
   AssociationOptions options_;
   std::map<BodyKey, int> person_of_;
   std::map<BodyKey, int> frames_apart_;
-  std::map<std::pair<int, int>, int> frames_together_;  // of two persons
-  std::map<int, int> age_;                              // of a person, in frames
+  std::map<std::pair<int, int>, int> frames_together_;  // per pair of persons
+  std::map<int, int> age_;                              // per person, in frames
   int lowest_free_id_ = 1;
 };
 

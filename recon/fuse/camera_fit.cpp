@@ -13,13 +13,13 @@ namespace {
 
 // Constants: by hand.
 
-constexpr size_t kMostMoments = 600;   // that are compared, evenly spread; for speed
+constexpr size_t kMostMoments = 600;   // compared times, evenly spread; for speed
 constexpr double kSameBody_m = 0.6;    // mean distance of joints below which two bodies may be one
-constexpr int kLeastJoints = 3;        // that two bodies are compared by
+constexpr int kLeastJoints = 3;        // common joints needed to compare two bodies
 constexpr double kFar_m = 0.15;        // joints so far apart do not agree
-constexpr double kUsualJoints = 15.0;  // weight of a body that the other camera has nowhere
-constexpr double kDoubt_s = 0.5;       // common time at which a guess counts half
-constexpr double kFloorWeight = 0.02;  // m2; of the normals, share of the joints' weight
+constexpr double kUsualJoints = 15.0;  // weight of a body without a counterpart in the other camera
+constexpr double kDoubt_s = 0.5;       // common time at which the score is halved
+constexpr double kFloorWeight = 0.02;  // m2; weight of the normals as a share of the joints' weight
 
 std::optional<Eigen::Vector3d> MeanFloorNormal(const SkeletonSequence& sequence) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -36,10 +36,10 @@ SeenJoints Moved(const SeenJoints& seen, const Eigen::Isometry3d& to_from_from) 
   return moved;
 }
 
-/// A body of a moment and which track it is of.
+/// A body at one time, and its track.
 struct Present {
   size_t track = 0;
-  SeenJoints seen;  // its camera's space
+  SeenJoints seen;  // in its camera's space
   SeenJoints in_camera_0;
 };
 
@@ -54,7 +54,7 @@ std::vector<Present> PresentAt(const std::vector<JointTrack>& tracks, double tim
   return present;
 }
 
-/// Nearest first, each body once.
+/// Greedy matching: nearest pairs first, each body once.
 std::vector<std::pair<size_t, size_t>> PairBodies(const std::vector<Present>& a,
                                                   const std::vector<Present>& b) {
   std::vector<std::pair<size_t, size_t>> pairs;
@@ -97,7 +97,7 @@ Eigen::Isometry3d AlignRobustly(const CameraPair& pair, const CommonJoints& comm
   for (int round = 0; round < kRounds; ++round) {
     RigidAlignment alignment;
     for (const CommonJoint& joint : common.joints) {
-      // Geman and McClure's: the weight of what is far off fades with the fourth power.
+      // Geman and McClure: weights of outliers decay with the fourth power.
       const double off = Distance_m(joint, camera_0_from_other) / kFar_m;
       const double weight = joint.weight / ((1.0 + off * off) * (1.0 + off * off));
       alignment.Add(joint.in_other, joint.in_camera_0, weight);
@@ -182,7 +182,7 @@ CameraGuess RefineGuess(const CameraPair& pair, const CameraGuess& guess, double
   constexpr int kRounds = 3;
   CameraGuess best = AlignedAt(pair, guess, guess.clock_offset_s);
   for (int round = 0; round < kRounds; ++round) {
-    // Whole frames apart: what interpolation smooths, it smooths alike at all three.
+    // Offsets whole frames apart, so that interpolation smooths all three alike.
     const double h_s = 2.0 * step_s, middle_s = best.clock_offset_s;
     const double before = AlignedAt(pair, best, middle_s - h_s).cost;
     const double after = AlignedAt(pair, best, middle_s + h_s).cost;

@@ -11,11 +11,11 @@ namespace {
 
 // Constants: by hand.
 
-constexpr size_t kMostMoments = 300;  // of a track that are compared, evenly spread; for speed
-constexpr size_t kMostMinima = 3;     // of a pair that are looked at again
+constexpr size_t kMostMoments = 300;  // compared times per track, evenly spread; for speed
+constexpr size_t kMostMinima = 3;     // minima kept per pair of tracks
 constexpr double kLeastOverlap_s = 0.5;
-constexpr double kLeastShare = 1.0 / 3;  // of the shorter track that must overlap; share
-constexpr double kDoubt_s = 0.5;         // an overlap as short as this counts as twice as far off
+constexpr double kLeastShare = 1.0 / 3;  // minimum overlap, share of the shorter track
+constexpr double kDoubt_s = 0.5;         // overlap at which the cost is doubled
 
 std::vector<size_t> SpreadMoments(size_t count) {
   const size_t taken = std::min(count, kMostMoments);

@@ -15,16 +15,16 @@ namespace {
 
 // Constants: by hand.
 
-constexpr size_t kMostTracks = 8;         // of a camera, the longest; for speed
-constexpr size_t kMostGuesses = 12;       // that are looked at with everybody; for speed
-constexpr double kLeastMotion_m = 0.03;   // of joints about their mean places: thrice their noise
-constexpr double kMostDistance_m = 0.15;  // median of joints that are said to be the same
-constexpr double kLeastScore = 0.2;       // share of what could agree
-constexpr double kAlike = 0.97;           // share of the best score at which another is as good
-constexpr double kOtherOffset_s = 0.25;   // clock offsets so far apart are two
+constexpr size_t kMostTracks = 8;         // longest tracks used per camera; for speed
+constexpr size_t kMostGuesses = 12;       // guesses evaluated with all people; for speed
+constexpr double kLeastMotion_m = 0.03;   // least deviation from mean positions: thrice the noise
+constexpr double kMostDistance_m = 0.15;  // maximum median distance of matched joints
+constexpr double kLeastScore = 0.2;       // share of the possible weight
+constexpr double kAlike = 0.97;  // a guess with this share of the best score counts as equal
+constexpr double kOtherOffset_s = 0.25;  // clock offsets this far apart are different
 
-/// A guess after refinement, with what speaks for it.
-struct Judged {
+/// A refined guess with its evaluation.
+struct EvaluatedGuess {
   CameraGuess guess;
   double score = 0.0;
 };
@@ -49,7 +49,7 @@ std::vector<JointTrack> LongestTracks(std::vector<JointTrack> tracks) {
   return tracks;
 }
 
-/// Around equal clocks, and around recordings that begin together where these are far from it.
+/// Offset grids around equal clocks and, if the start times differ much, around a common start.
 std::vector<OffsetGrid> MakeGrids(const SkeletonSequence& camera_0, const SkeletonSequence& other,
                                   const EstimateExtrinsicsOptions& options) {
   const double step_s = GridStep_s(other);
@@ -79,9 +79,9 @@ std::vector<CameraGuess> SearchPairs(const CameraPair& pair, const std::vector<O
   return guesses;
 }
 
-std::vector<Judged> JudgeAll(const CameraPair& pair, const std::vector<CameraGuess>& guesses,
-                             double step_s) {
-  std::vector<Judged> judged;
+std::vector<EvaluatedGuess> JudgeAll(const CameraPair& pair,
+                                     const std::vector<CameraGuess>& guesses, double step_s) {
+  std::vector<EvaluatedGuess> judged;
   for (const CameraGuess& guess : guesses) {
     const CameraGuess refined = RefineGuess(pair, guess, step_s);
     judged.push_back({refined, ScoreGuess(FindCommonJoints(pair, refined), refined)});
@@ -103,8 +103,8 @@ void CheckAgreement(const SkeletonSequence& other, const CommonJoints& common,
   }
 }
 
-void CheckUnambiguous(const SkeletonSequence& other, const std::vector<Judged>& judged) {
-  for (const Judged& second : judged) {
+void CheckUnambiguous(const SkeletonSequence& other, const std::vector<EvaluatedGuess>& judged) {
+  for (const EvaluatedGuess& second : judged) {
     const double apart_s =
         std::abs(second.guess.clock_offset_s - judged.front().guess.clock_offset_s);
     if (apart_s < kOtherOffset_s || second.score < kAlike * judged.front().score) continue;
@@ -122,7 +122,7 @@ CameraEstimate EstimateCamera(const SkeletonSequence& camera_0, const SkeletonSe
   const auto grids = MakeGrids(camera_0, other, options);
   const auto guesses = SearchPairs(pair, grids);
   if (guesses.empty()) RefuseCamera(other, "less than half a second that both see");
-  const std::vector<Judged> judged = JudgeAll(pair, guesses, grids.front().step_s);
+  const std::vector<EvaluatedGuess> judged = JudgeAll(pair, guesses, grids.front().step_s);
   const CameraGuess& best = judged.front().guess;
   const CommonJoints common = FindCommonJoints(pair, best);
   CheckAgreement(other, common, best, judged.front().score);

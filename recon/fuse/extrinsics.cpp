@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr auto kReplaceBadText = Json::error_handler_t::replace;
 
 [[noreturn]] void Refuse(const std::string& place, const std::string& expected, const Json& found) {
-  constexpr size_t kMostShown_bytes = 60;  // of what was found; by hand
+  constexpr size_t kMostShown_bytes = 60;  // of the quoted text; by hand
   std::string text = found.dump(-1, ' ', true, kReplaceBadText);
   if (text.size() > kMostShown_bytes) text = text.substr(0, kMostShown_bytes) + "...";
   throw InputError(fmt::format("{}: expected {}, found {}", place, expected, text));
@@ -60,7 +60,7 @@ Eigen::Matrix4d ReadMatrix(const Json& rows, const std::string& place) {
 }
 
 Eigen::Isometry3d ReadTransform(const Json& rows, const std::string& place) {
-  constexpr double kTolerance = 1e-3;  // no unit; of numbers with few digits; by hand
+  constexpr double kTolerance = 1e-3;  // no unit; numbers may have few digits; by hand
   const Eigen::Matrix4d matrix = ReadMatrix(rows, place);
   const Eigen::Matrix3d turn = matrix.topLeftCorner<3, 3>();
   const double off = (turn.transpose() * turn - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
@@ -103,7 +103,7 @@ void CheckFirst(const CameraExtrinsics& first, const std::string& place) {
 }
 
 std::string ReadText(const fs::path& path) {
-  constexpr size_t kMostBytes = size_t{1} << 20;  // of some hundred a camera; a bound by hand
+  constexpr size_t kMostBytes = size_t{1} << 20;  // some hundred per camera; a bound by hand
   std::ifstream file = OpenFile(path);
   if (!file) throw InputError(path.string() + ": cannot be opened for reading");
   std::string text(kMostBytes, '\0');
@@ -123,8 +123,8 @@ Json ParseObject(const std::string& text, const std::string& place) {
   return json;
 }
 
-/// To the microsecond, however far apart the clocks are: nine digits, enough for places, would be
-/// whole seconds of a clock that counts from 1970.
+/// Formats with microseconds, however far apart the clocks are: the nine digits that suffice for
+/// positions would round a clock that counts from 1970 to whole seconds.
 std::string OffsetJson(double offset_s) {
   constexpr double kFinest_per_s = 1e6;  // by hand: microseconds, finer than cameras' clocks
   return fmt::format("{}", std::round(offset_s * kFinest_per_s) / kFinest_per_s + 0.0);
@@ -135,8 +135,8 @@ std::string RowJson(const Eigen::RowVector4d& row) {
                      row[3] + 0.0);
 }
 
-/// Recordings are taken by their order though some have a camera's name: it must be the camera
-/// there.
+/// Checks recordings that are assigned by order: if one is named like a camera, it must be that
+/// camera.
 void CheckOrder(const Extrinsics& cameras, std::span<const std::string> names,
                 const std::string& place) {
   for (size_t k = 0; k < names.size(); ++k) {
@@ -229,7 +229,7 @@ Extrinsics SelectCameras(const Extrinsics& cameras, std::span<const std::string>
 std::vector<std::string> CameraNames(std::span<const std::string> sources) {
   std::vector<std::string> names;
   for (const std::string& source : sources) {
-    // A folder may be said with a '/' at its end, which leaves no name after it.
+    // A path may end with '/', after which there is no name.
     const fs::path path(source);
     names.push_back((path.has_filename() ? path : path.parent_path()).stem().string());
   }

@@ -7,12 +7,12 @@
 
 namespace ossa::recon {
 
-/// One of several cameras that see the same people and do not move.
+/// One of several fixed cameras that see the same people.
 struct CameraExtrinsics {
   std::string name;
-  /// Takes a point of camera 0's space to this camera's, metres.
+  /// Transforms a point from camera 0's space to this camera's, metres.
   Eigen::Isometry3d from_camera_0 = Eigen::Isometry3d::Identity();
-  /// Seconds to add to this camera's times: then they are camera 0's.
+  /// Seconds to add to this camera's times to get camera 0's.
   double clock_offset_s = 0.0;
 };
 
@@ -20,29 +20,28 @@ struct CameraExtrinsics {
 using Extrinsics = std::vector<CameraExtrinsics>;
 
 /// Reads an extrinsics file (docs/files.md). Throws InputError naming file, place and expectation
-/// for what is no JSON of that form: a camera without a name of its own, a matrix that is no
-/// rotation and translation within 1000 km, a first camera that is elsewhere than camera 0. What is
-/// off a rotation by less than a thousandth (few digits) is brought to the nearest one.
+/// for text that is not JSON of that form: a camera without a unique name, a matrix that is not a
+/// rotation and translation within 1000 km, a first camera that is not at the origin. Rotations off
+/// by less than a thousandth (few digits) are projected to the nearest rotation.
 Extrinsics ReadExtrinsics(const std::filesystem::path& path);
 
-/// The same of such a file's text; `place` stands for the file in messages.
+/// As ReadExtrinsics, from text; `place` stands for the file in messages.
 Extrinsics ExtrinsicsFromJson(const std::string& text, const std::string& place);
 
-/// Writes it; the file appears under its name when complete. Throws InputError.
+/// Writes an extrinsics file atomically. Throws InputError.
 void WriteExtrinsics(const std::filesystem::path& path, const Extrinsics& cameras);
 
-/// The text of such a file.
+/// The text of an extrinsics file.
 std::string ExtrinsicsJson(const Extrinsics& cameras);
 
-/// The cameras that recordings of these names are of, relative to the first of them: where every
-/// name is a camera's, those, in any order; else all cameras in their order. Throws InputError,
-/// `place` (the file) first, where there are then more or fewer cameras than names, and where one
-/// of the names is that of a camera at another place.
+/// Selects the cameras of recordings with these names, relative to the first of them: by name, if
+/// every name is a camera's; else all cameras in order. Throws InputError, starting with `place`
+/// (the file), if the counts then differ, or if a name is that of a camera at another index.
 Extrinsics SelectCameras(const Extrinsics& cameras, std::span<const std::string> names,
                          const std::string& place);
 
-/// Names of cameras by the files or folders that their recordings are: the stem, and where two are
-/// alike camera_0, camera_1 ... for all.
+/// Camera names from the files or folders of their recordings: the stem, or camera_0, camera_1 ...
+/// for all if two stems are equal.
 std::vector<std::string> CameraNames(std::span<const std::string> sources);
 
 }  // namespace ossa::recon

@@ -8,18 +8,18 @@ namespace ossa::recon {
 namespace {
 
 // Constants: chosen on twelve rendered clips by `ossa render --sequence --cameras 2 --split test`
-// with the seeds 1 to 6 and 101 to 106; others are measured in docs/several_cameras.md.
+// with the seeds 1 to 6 and 101 to 106; docs/several_cameras.md reports measurements on others.
 
-constexpr double kLeastTrust = 0.05;   // share; of confidence and of reliability
-constexpr double kInferred = 0.3;      // factor of the trust in an inferred joint
-constexpr double kPlacedUnseen = 0.1;  // ... factor of that in one that is not tracked
-constexpr double kNewShare = 0.05;     // of the latest frame in a camera's trust: 0.7 s are kept
-constexpr double kSupport = 1.5;       // logarithm of what another camera that agrees counts
-constexpr double kJump_m = 0.1;        // standard deviation of what a joint moves in a frame
-constexpr double kStretch_m = 0.05;    // ... and of a bone between joints of different cameras
-constexpr double kMostSurprise = 2.0;  // logarithm; whatever happens is not less likely
+constexpr double kLeastTrust = 0.05;   // share; lower bound of confidence and of reliability
+constexpr double kInferred = 0.3;      // trust factor of an inferred joint
+constexpr double kPlacedUnseen = 0.1;  // trust factor of a joint that is not tracked
+constexpr double kNewShare = 0.05;     // weight of the latest frame in a camera's trust: 0.7 s
+constexpr double kSupport = 1.5;     // logarithm of likelihood, added by another camera that agrees
+constexpr double kJump_m = 0.1;      // standard deviation of a joint's motion per frame
+constexpr double kStretch_m = 0.05;  // ... and of a bone between joints of different cameras
+constexpr double kMostSurprise = 2.0;  // logarithm; upper bound of a surprise
 
-/// One joint as one camera has it.
+/// One joint as seen by one camera.
 struct SeenJoint {
   const BodySighting* sighting = nullptr;
   const JointRecord* joint = nullptr;
@@ -59,12 +59,12 @@ bool Agree(const SeenJoint& a, const SeenJoint& b, double disagreement_m) {
   return (a.joint->position_m - b.joint->position_m).norm() <= disagreement_m;
 }
 
-/// Of a normal distribution, bounded.
+/// Negative log-likelihood of a normal distribution, bounded.
 double Surprise(double deviations) {
   return std::min(kMostSurprise, 0.5 * deviations * deviations);
 }
 
-/// How ill the joint's distance from the fused parent fits the bone that its camera sees.
+/// Surprise of the distance from the fused parent, given the bone length of the joint's camera.
 double BoneSurprise(const SeenJoint& seen, size_t j, const BodyRecord& fused) {
   const size_t parent = ParentOf(j);
   const auto& own = seen.sighting->body.joints[parent];
@@ -75,7 +75,7 @@ double BoneSurprise(const SeenJoint& seen, size_t j, const BodyRecord& fused) {
   return Surprise((own_m - common_m) / kStretch_m);
 }
 
-/// Logarithm of how likely the joint is where this camera has it, but for a constant.
+/// Log-likelihood of this camera's joint position, up to a constant.
 double Likelihood(const SeenJoint& seen, size_t j, const BodyRecord& fused,
                   const JointHistory& history) {
   double sum = std::log(history.trust.at(seen.sighting->camera)[j]);
@@ -85,9 +85,9 @@ double Likelihood(const SeenJoint& seen, size_t j, const BodyRecord& fused,
   return sum - BoneSurprise(seen, j, fused);
 }
 
-/// Leaves those that agree with the likeliest.
-void LeaveAgreeing(std::vector<SeenJoint>& seen, double disagreement_m, size_t j,
-                   const BodyRecord& fused, const JointHistory& history) {
+/// Keeps the joints that agree with the likeliest.
+void KeepAgreeing(std::vector<SeenJoint>& seen, double disagreement_m, size_t j,
+                  const BodyRecord& fused, const JointHistory& history) {
   const auto score = [&](const SeenJoint& one) {
     const auto supporters = std::count_if(seen.begin(), seen.end(), [&](const SeenJoint& s) {
       return Agree(one, s, disagreement_m);
@@ -131,7 +131,7 @@ JointRecord MeanJoint(const std::vector<SeenJoint>& seen) {
   return mean;
 }
 
-/// The mean of what several cameras judge.
+/// The mean of the cameras' bone length estimates.
 std::optional<BoneLengths> MeanBones(std::span<const BodySighting* const> sightings) {
   BoneLengths mean_m{};
   double count = 0.0;
@@ -156,7 +156,7 @@ BodyRecord FuseBody(std::span<const BodySighting* const> sightings, double disag
     std::vector<SeenJoint> seen = AllSeen(sightings, j);
     RememberTrust(seen, j, history);
     if (!seen.empty()) {
-      LeaveAgreeing(seen, disagreement_m, j, fused, history);
+      KeepAgreeing(seen, disagreement_m, j, fused, history);
       LeaveBestState(seen);
       fused.joints[j] = MeanJoint(seen);
     }

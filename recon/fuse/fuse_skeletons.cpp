@@ -19,7 +19,7 @@
 namespace ossa::recon {
 namespace {
 
-/// One camera's recording, ready to be asked for any time.
+/// The body tracks of one camera, for interpolation at any time.
 struct CameraTracks {
   std::vector<BodyTrack> tracks;
   Eigen::Isometry3d camera_0_from_camera;
@@ -41,7 +41,7 @@ bool HasAnyPlace(const BodyRecord& body) {
                      [](const auto& joint) { return joint && HasPlace(*joint); });
 }
 
-/// From when to when a recording is, camera 0's clock.
+/// Time range of a recording, camera 0's clock.
 struct TimeSpan {
   double begin_s = 0.0, end_s = 0.0;
 };
@@ -51,8 +51,8 @@ TimeSpan SpanOf(const SkeletonSequence& sequence, double clock_offset_s) {
           sequence.frames.back().time_s + clock_offset_s};
 }
 
-/// A line for each camera whose recording has no time in common with camera 0's: a wrong clock
-/// offset would else pass for a camera that sees nobody.
+/// A warning for each camera whose recording does not overlap camera 0's in time: a wrong clock
+/// offset would otherwise look like a camera that sees nobody.
 std::vector<std::string> WarnOfOtherTimes(std::span<const SkeletonSequence> sequences,
                                           const Extrinsics& cameras) {
   std::vector<std::string> warnings;
@@ -71,8 +71,9 @@ std::vector<std::string> WarnOfOtherTimes(std::span<const SkeletonSequence> sequ
   return warnings;
 }
 
-/// Camera 0's own bodies as they are, the others' at that time. Formats of points keep a body while
-/// nobody is seen: one without a place is far from everybody, and would be a person of its own.
+/// Camera 0's bodies, and the other cameras' bodies at that time. Point formats keep bodies of
+/// unseen people: those without a position are left out, because they would become persons of their
+/// own.
 std::vector<BodySighting> SightingsOf(const SkeletonFrame& frame,
                                       const std::vector<CameraTracks>& cameras) {
   std::vector<BodySighting> sightings;
@@ -105,8 +106,8 @@ bool IsWhollyTracked(const BodyRecord& body, size_t bone) {
   return tracked(bone) && tracked(ParentOf(bone));
 }
 
-/// Of each person the median of each bone's length, where both its ends are tracked if they ever
-/// are.
+/// The median length of each bone of each person, from frames in which both ends are tracked, if
+/// there are any.
 std::map<int, BoneLengths> MeasureBonesOf(const SkeletonSequence& sequence) {
   std::map<int, BoneLengthEstimator> tracked, all;
   for (const SkeletonFrame& frame : sequence.frames) {
@@ -134,7 +135,7 @@ std::map<int, BoneLengths> MeasureBonesOf(const SkeletonSequence& sequence) {
 }
 
 JointWeights WeightsOf(const BodyRecord& body) {
-  constexpr double kUnseen = 0.1;  // of a joint that is not tracked; weight; by hand
+  constexpr double kUnseen = 0.1;  // weight of a joint that is not tracked; by hand
   JointWeights weights;
   for (size_t j = 0; j < kJointCount; ++j) {
     const bool tracked =
@@ -160,7 +161,7 @@ void Reorient(BodyRecord& body) {
   for (size_t j = 0; j < kJointCount; ++j) body.joints[j]->orientation = turns[j];
 }
 
-/// Only who was fused of several cameras; others are what their camera says.
+/// Adjusts only people fused from several cameras; others remain as their camera has them.
 void FinishBodies(SkeletonSequence& sequence, const std::set<int>& fused, bool keep_bones) {
   const auto lengths_m = keep_bones ? MeasureBonesOf(sequence) : std::map<int, BoneLengths>{};
   for (SkeletonFrame& frame : sequence.frames) {

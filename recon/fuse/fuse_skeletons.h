@@ -6,28 +6,25 @@
 
 namespace ossa::recon {
 
-/// How the skeletons of several cameras become one. Metres and seconds, all > 0.
+/// Options for fusing the skeletons of several cameras. Metres and seconds, all > 0.
 struct FuseOptions {
-  double max_gap_s = 0.1;  // over which a camera's bodies are interpolated; by hand: 3 frames
-  /// Of one joint, above which cameras contradict each other; what confidences are about: by
-  /// definition.
+  double max_gap_s = 0.1;  // longest gap to interpolate over; by hand: 3 frames
+  /// Distance of a joint above which cameras contradict each other; by definition of confidence.
   double disagreement_m = 0.1;
-  bool keep_bones = true;  // bones have one length in the whole recording
+  bool keep_bones = true;  // constant bone lengths over the whole recording
 };
 
-/// One recording of what several cameras saw at once: `sequences` in the order of `cameras`, camera
-/// 0 first, as many as these. The frames are camera 0's, with its times, floors and things;
-/// skeletons are in its space. Another camera's bodies are taken at the same time by its clock
-/// offset, on the line between two moments; where these are more than `max_gap_s` apart, or a frame
-/// and a half of a slower recording, it says nothing of that time. Bodies that lie on each other
-/// are one person, who keeps one id; people whom one camera sees are there, too; of bodies without
-/// a place (HasPlace) nothing is left. Joints are fused
-/// one by one: a tracked one before an inferred one, what is surer (standard deviations, else
-/// confidence, reliability and the direction of the ray) before what is less; where cameras
-/// contradict each other, the likeliest. People of whom all 20 joints are there and whom several
-/// cameras saw keep the median lengths of their bones. `warnings` are of the fusion: of cameras
-/// whose times are none of camera 0's. Of one sequence, that one. Throws std::invalid_argument
-/// where the counts differ.
+/// Fuses recordings of several cameras into one. `sequences` in the order and number of `cameras`,
+/// camera 0 first. The result has camera 0's frames, with its times, floors and objects, in camera
+/// 0's space. Another camera's bodies are interpolated at the same time by its clock offset. Gaps
+/// of more than `max_gap_s`, or a frame and a half of a slower recording, are not bridged.
+/// Coinciding bodies are one person, who keeps one id. People seen by one camera are included;
+/// bodies without a position (HasPlace) are not. Joints are fused one by one: a tracked one before
+/// an inferred one, weighted by certainty (standard deviations, else confidence, reliability and
+/// the direction of the ray); if cameras contradict each other, the likeliest. People with all 20
+/// joints who were seen by several cameras get constant median bone lengths. `warnings` name
+/// cameras whose times do not overlap camera 0's. A single sequence is returned unchanged. Throws
+/// std::invalid_argument if the counts differ.
 SkeletonSequence FuseSkeletons(std::span<const SkeletonSequence> sequences,
                                const Extrinsics& cameras, const FuseOptions& options = {});
 

@@ -8,7 +8,7 @@
 namespace ossa::recon {
 namespace {
 
-// Whether any joint is tracked.
+// Copies the tracked joints. False if there are none.
 bool TakeTrackedJoints(const BodyRecord& body, SeenJoints& seen) {
   const TrackedPosture tracked = ToTrackedPosture(body);
   seen.position_m = tracked.posture.position_m;

@@ -26,7 +26,7 @@ RigidAlignment::Result RigidAlignment::Solve() const {
   const Eigen::Matrix3d spread = product_sum_ - weight_ * to_mean * from_mean.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread + directions_,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();  // S of eq. 43: no mirror
+  Eigen::Vector3d signs = Eigen::Vector3d::Ones();  // S of eq. 43: excludes reflections
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) signs.z() = -1.0;
   const Eigen::Matrix3d turn = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
   result.to_from_from.linear() = turn;

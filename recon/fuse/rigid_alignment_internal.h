@@ -3,24 +3,24 @@
 
 namespace ossa::recon {
 
-/// The rotation and translation, without scale, that bring points onto others by least weighted
-/// squares (Kabsch 1976; Umeyama 1991, eqs. 34-43 with c = 1). Sums alone are kept: pairs are added
-/// one at a time. All in metres.
+/// Weighted least-squares rotation and translation, without scale, between corresponding points
+/// (Kabsch 1976; Umeyama 1991, eqs. 34-43 with c = 1). Only sums are stored, so pairs are added one
+/// at a time. Metres.
 class RigidAlignment {
  public:
-  /// One pair of points, weight > 0, no unit.
+  /// Adds a pair of points; weight > 0, no unit.
   void Add(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double weight);
-  /// One pair of directions, unit vectors, that shall fall together: weighs as two pairs of points
-  /// a metre away on either side of the points' mean, of half the weight each.
+  /// Adds a pair of directions (unit vectors) to be aligned: equivalent to two pairs of points one
+  /// metre on either side of the mean, each with half the weight.
   void AddDirection(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double weight);
 
-  /// Sum of the weights of points.
+  /// Sum of the point weights.
   double weight() const { return weight_; }
   struct Result {
     Eigen::Isometry3d to_from_from = Eigen::Isometry3d::Identity();
-    double mean_square_m2 = 0.0;  // of what is left of the points, by weight
+    double mean_square_m2 = 0.0;  // weighted mean squared residual of the points
   };
-  /// At least three points that are on no line; else some rotation of those that fit.
+  /// Needs at least three non-collinear points; else one of the optimal rotations.
   Result Solve() const;
 
  private:

@@ -15,7 +15,7 @@ std::optional<T> Both(const std::optional<T>& a, const std::optional<T>& b, cons
   return mix(*a, *b);
 }
 
-/// Share 0: a, 1: b.
+/// Linear interpolation; share 0: a, 1: b.
 JointRecord Between(const JointRecord& a, const JointRecord& b, double share) {
   const auto lesser = [](const auto& x, const auto& y) { return std::min(x, y); };
   JointRecord joint;
@@ -42,15 +42,16 @@ BodyRecord BetweenBodies(const BodyRecord& a, const BodyRecord& b, double share)
 }
 
 double ConfidenceOf(const JointRecord& joint) {
-  constexpr double kInferred = 0.5;  // confidence of an inferred joint that has none: by convention
+  constexpr double kInferred = 0.5;  // default confidence of an inferred joint: by convention
   const bool tracked = joint.state.value_or(TrackingState::kTracked) == TrackingState::kTracked;
   return joint.confidence.value_or(tracked ? 1.0 : kInferred);
 }
 
 Eigen::Matrix3d CovarianceOf(const JointRecord& in_camera) {
-  // The ray; standard deviations. Their ratio, and that confidence and reliability divide the
-  // variance, were chosen on six rendered clips by `ossa render --sequence --cameras 2 --split test
-  // --seed 101` to 106, as docs/several_cameras.md measures others.
+  // Standard deviations across and along the ray. Their ratio, and the division of the variance by
+  // confidence and reliability, were chosen on six rendered clips by `ossa render --sequence
+  // --cameras 2 --split test --seed 101` to 106; docs/several_cameras.md reports measurements on
+  // others.
   constexpr double kAcross_m = 0.02, kAlong_m = 0.03;
   constexpr double kLeastTrust = 0.05, kLeastSigma_m = 1e-3;  // share; bounds
   if (in_camera.sigma_m) {

@@ -34,7 +34,7 @@ void BodySize::Observe(const Posture& in_camera, const JointWeights& trust, doub
       return;
     }
     judged_ = BoneLengthEstimator(
-        BoneLengthOptions::ForNetworkEstimates());  // until now of somebody else
+        BoneLengthOptions::ForNetworkEstimates());  // measurements so far were of another person
   }
   scale_ = good >= options_.fewest ? scale : 1.0;
   typical_ = BoneLengthEstimator(BoneLengthOptions::ForJointDistances());
@@ -57,10 +57,10 @@ void BodySize::Know(const BoneLengths& lengths_m) {
   known_ = locked_ = true;
 }
 
-// What is judged settles in the first frames. After 3.5 seconds, seven, fourteen, ...: bones that
-// are typically others than they were then are taken anew; with them all others where they are
-// measured between joints, which errs for the whole body alike. A body whose bones are seen as they
-// are is left alone.
+// Estimated lengths settle in the first frames. After 3.5, 7, 14, ... seconds, bones whose median
+// differs from the current length are replaced; if lengths are measured between joints, all others
+// are, too, because such errors affect the whole body alike. A body whose bones are as observed is
+// not changed.
 void BodySize::Review() {
   const bool settles = IsJudged() && judged_.measurements(1) <= options_.settling_frames;
   const bool reviews = typical_frames_ >= next_review_;
@@ -88,13 +88,13 @@ void BodySize::Grow() {
   if (grown_frames_ == options_.growing_frames) return;
   ++grown_frames_;
   const double part = static_cast<double>(grown_frames_) / options_.growing_frames;
-  const double share = part * part * (3.0 - 2.0 * part);  // begins and ends at rest
+  const double share = part * part * (3.0 - 2.0 * part);  // smoothstep
   for (size_t i = 0; i < kJointCount; ++i) {
     lengths_m_[i] = (1.0 - share) * grow_from_m_[i] + share * grow_to_m_[i];
   }
 }
 
-/// The lengths that what was judged tells; if nothing was, what is typical.
+/// Lengths from the network's estimates; without any, the medians of the measurements.
 BoneLengths BodySize::Choose() const {
   BoneLengths lengths = ScaledBoneLengths(scale_);
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -106,7 +106,7 @@ BoneLengths BodySize::Choose() const {
       const double expected_m = size * proportions_[i] * StandardBoneLengths()[i];
       length += expected_ * (expected_m - length);
     }
-    // The bones to shoulders and hips are the trunk's.
+    // Bones ending in shoulders and hips belong to the trunk.
     const bool trunk = i <= Index(Joint::kShoulderLeft) || i == Index(Joint::kShoulderRight) ||
                        i == Index(Joint::kHipLeft) || i == Index(Joint::kHipRight);
     const double shortest = options_.as_measured ? options_.shortest_measured

@@ -8,57 +8,59 @@ namespace ossa::recon {
 
 // Constants: by hand, from anthropometry where it is named; weights and shares where no unit is.
 
-/// When bones are measured, and what a measured length may be. Frames are a thirtieth of a second;
+/// When bones are measured, and the limits of their lengths. Frames are a thirtieth of a second;
 /// checked on UI-PRMD (`ossa experiment sdk`) and rendered clips.
 struct BodySizeOptions {
-  /// Bones may be as far from the standard ones as they like; a foot may end in the ankle where a
-  /// sensor has only one of the two.
+  /// No limits relative to the standard bones; a foot may coincide with the ankle if a sensor
+  /// provides only one of the two.
   bool as_measured = false;
-  // Another size, by that share, for so long is another person.
+  // A size that differs by this share for this long is another person's.
   double other_size = 0.25;
   int other_size_frames = 30;
-  // Judged bones are the mean of so many: of 30 they are as near to the truth on rendered people,
-  // and move for longer.
+  // Number of estimates that are averaged: on rendered people the mean of 30 is no more accurate,
+  // and moves for longer.
   int settling_frames = 3;
-  int first_review_frames = 105;  // sooner, a pose is taken for a body
-  double other_length = 0.05;     // share: the median of that many frames errs by no more than 1 %
-  int growing_frames = 15;        // a bone that grew at once would throw its joints
-  double trusted = 0.5;           // weight from which on a joint is measured, [0, 1]
-  int whole_body = 12, fewest = 4;  // trusted joints that fix bones for good, that fix the size
-  // Lengths over the standard ones at the person's size. Where trunk joints lie is each sensor's
-  // own definition; limbs differ between people only (anthropometry: by less than a quarter).
+  int first_review_frames = 105;    // sooner, a pose would pass for a body shape
+  double other_length = 0.05;       // share; the median of that many frames is accurate to 1 %
+  int growing_frames = 15;          // over which a bone changes: gradually
+  double trusted = 0.5;             // weight from which a joint is used, [0, 1]
+  int whole_body = 12, fewest = 4;  // trusted joints that fix all bones; the size
+  // Limits of lengths relative to the standard ones at the person's size. Trunk joints are a
+  // convention of each sensor; limbs differ only between people (anthropometry: by less than a
+  // quarter).
   double shortest_trunk = 0.5, shortest_limb = 0.75, longest_limb = 1.25, longest = 2.0;
-  double shortest_measured = 0.1;  // of any bone, as_measured
+  double shortest_measured = 0.1;  // lower limit of any bone with as_measured
 };
 
-/// The person's bone lengths, kept constant from the first good frame on: the standing or T-posed
-/// person that tracking starts with (Shum 2013 fig. 2), left and right averaged. Where a network
-/// judges them in each frame (recon/refine/bone_estimation.h), they settle in the first three, and
-/// later only those grow that are others. Measured anew when the body has another size for a
-/// second, which is another person; and, at reviews that become rarer, when the bones seen until
-/// then are typically others: to these they grow in half a second. Bones that are known stay.
+/// The person's bone lengths, constant from the first good frame on: tracking starts with a
+/// standing or T-posed person (Shum 2013 fig. 2), whose left and right sides are averaged. If a
+/// network estimates them in each frame (recon/refine/bone_estimation.h), they settle in the first
+/// three frames, and later only bones that differ change. All are measured again if the body has
+/// another size for a second, which is another person. At reviews of decreasing frequency they
+/// change, over half a second, to the medians observed so far if these differ. Known bones never
+/// change.
 class BodySize {
  public:
   BodySize() = default;
   explicit BodySize(const BodySizeOptions& options) : options_(options) {}
-  /// Bones are expected in these proportions to the standard ones (0: nothing is expected): the
-  /// lengths taken lie between what is measured, in one frame, and what the body's size tells.
-  /// `share`: of what the size tells, in [0, 1].
+  /// Expected proportions of bones to the standard ones (0: none): lengths then are a mean of the
+  /// measured ones, in one frame, and those expected from the body's size. `share`: weight of the
+  /// latter, in [0, 1].
   void Expect(const BoneLengths& proportions, double share) {
     proportions_ = proportions;
     expected_ = share;
   }
-  /// `expected_scale`: what the proportions are multiplied with; 0: the measured size. `judged`:
-  /// the bones as a network judges them in this frame, which goes before what lies between joints.
+  /// `expected_scale`: factor of the proportions; 0: the measured size. `judged`: a network's
+  /// estimate of the bones in this frame, which takes precedence over distances between joints.
   void Observe(const Posture& in_camera, const JointWeights& trust, double expected_scale = 0.0,
                const std::optional<BoneLengths>& judged = std::nullopt);
-  /// The person's bones were measured before: these stay, whatever is observed.
+  /// Sets known bone lengths, which never change.
   void Know(const BoneLengths& lengths_m);
   const BoneLengths& lengths_m() const { return lengths_m_; }
-  /// What would be taken now, by all that was observed: lengths_m() changes rarely.
+  /// The best lengths from all observations so far: lengths_m() changes rarely.
   BoneLengths Latest() const { return known_ ? lengths_m_ : Choose(); }
   bool locked() const { return locked_; }
-  /// Over the standard body, as a whole.
+  /// Size relative to the standard body.
   double scale() const { return scale_; }
 
  private:

@@ -13,7 +13,7 @@ JointOrientations TurnedOntoBones(const PostureDatabase& database, std::span<con
   for (size_t k = 0; k < postures.size(); ++k) {
     const JointOrientations turns = database.orientations(postures[k]);
     for (size_t i = 0; i < kJointCount; ++i) {
-      // q and -q are one rotation: add on the side of the sum so far.
+      // q and -q are the same rotation: add the one on the side of the sum so far.
       const Eigen::Vector4d q = turns[i].coeffs();
       sum[i] += (q.dot(sum[i]) < 0.0 ? -weights[k] : weights[k]) * q;
     }

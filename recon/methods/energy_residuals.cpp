@@ -103,7 +103,7 @@ int NearestNeighbour(const PostureSpace& space, const Eigen::VectorXf& q) {
 SearchResult SearchCeres(const PostureSpace& space, const EnergyInputs& inputs,
                          const LocalPcaOptions& options, const Eigen::VectorXf& start) {
   SearchResult result{start, 0.0, 0};
-  constexpr int kRuns = 3;  // by hand: the nearest neighbour rarely changes twice
+  constexpr int kRuns = 3;  // by hand: the nearest neighbour rarely changes more than once
   for (int run = 0, last = -1; run < kRuns && space.dimensions() > 0; ++run) {
     const int nearest = NearestNeighbour(space, result.q);
     if (nearest == last) break;

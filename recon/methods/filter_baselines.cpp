@@ -9,11 +9,11 @@ namespace ossa::recon {
 
 namespace {
 
-/// Whether a filter moves a joint that is not seen.
+/// Whether a filter extrapolates unseen joints.
 template <typename Filter>
-constexpr bool kGoesOn = std::is_same_v<Filter, VelocityKalman>;
+constexpr bool kExtrapolates = std::is_same_v<Filter, VelocityKalman>;
 
-/// The baselines: what was seen, completed, through one filter a joint.
+/// The baselines: observed joints, completed, through one filter per joint.
 template <typename Filter, typename StepFilter>
 class FilterReconstructor : public Reconstructor {
  public:
@@ -28,9 +28,9 @@ class FilterReconstructor : public Reconstructor {
       was_seen_[i] = was_seen_[i] || seen[i] > 0.0;
       out.posture.position_m[i] = Filtered(prepared, out.posture, i);
     }
-    // A filter that goes on with a velocity leads away from the joints that are seen; the others
-    // hold absent joints to seen ones where there is a trunk.
-    if (kGoesOn<Filter> || IsTrunkUnseen(seen)) {
+    // An extrapolating filter moves unseen joints away from the seen ones; the other filters keep
+    // absent joints with seen ones if there is a trunk.
+    if (kExtrapolates<Filter> || IsTrunkUnseen(seen)) {
       PullIntoReach(out.posture, seen, person_.size().lengths_m());
     }
     person_.Remember(out.posture, prepared);
@@ -48,10 +48,10 @@ class FilterReconstructor : public Reconstructor {
     was_seen_.fill(false);
   }
 
-  /// A filter that goes on has nothing to go on with before the joint was seen: until then it lies
-  /// beside its parent, which is `made` already.
+  /// An extrapolating filter has no state before the joint was first seen: until then the joint is
+  /// placed relative to its parent, which is already in `made`.
   Eigen::Vector3d Filtered(const PreparedPosture& prepared, const Posture& made, size_t joint) {
-    if (!kGoesOn<Filter> || was_seen_[joint]) return step_(filters_[joint], prepared, joint);
+    if (!kExtrapolates<Filter> || was_seen_[joint]) return step_(filters_[joint], prepared, joint);
     const Posture& placed = prepared.in_camera;
     if (joint == 0) return placed.position_m[0];
     const size_t parent = ParentOf(joint);
@@ -61,7 +61,7 @@ class FilterReconstructor : public Reconstructor {
   StepFilter step_;
   Person person_;
   JointArray<Filter> filters_;
-  JointArray<bool> was_seen_{};  // since it began anew
+  JointArray<bool> was_seen_{};  // since the last reset
 };
 
 template <typename Filter, typename StepFilter>

@@ -24,7 +24,8 @@ Vector3d MiddleOf(const Posture& posture, Joint left, Joint right) {
 // Constants: shares of the body's mass, no unit; P. de Leva, "Adjustments to Zatsiorsky-Seluyanov's
 // segment inertia parameters", J. Biomechanics 29(9), 1996, table 4, mean of men and women.
 
-/// None unless legs and trunk are seen and both feet carry. An arm's mass is in its elbow.
+/// None unless legs and trunk are seen and both feet carry weight. An arm's mass is placed at its
+/// elbow.
 std::optional<Stance> FindStance(const TrackedPosture& observed, const LevelOptions& options) {
   constexpr double kHead = 0.068, kTrunk = 0.430, kArms = 0.094, kThighs = 0.290, kShanks = 0.092,
                    kFeet = 0.026;
@@ -80,7 +81,7 @@ class Levelled : public Reconstructor {
     }
     ReconstructedPosture made = InCamera(method_->Step(levelled));
     revised_ = method_->Revised();
-    if (revised_) revised_ = InCamera(*revised_);  // empty after a cut: of the same level
+    if (revised_) revised_ = InCamera(*revised_);  // empty after a cut, so of the same level
     return made;
   }
 
@@ -114,7 +115,7 @@ class Levelled : public Reconstructor {
   LevelEstimator level_;
   std::optional<Isometry3d> level_from_camera_;
   std::optional<ReconstructedPosture> revised_;
-  double cut_s_ = 0.0;  // later than it is: the cuts
+  double cut_s_ = 0.0;  // offset of reported times, from the cuts
   bool started_ = false;
 };
 
@@ -134,7 +135,7 @@ const std::optional<Isometry3d>& LevelEstimator::Update(
     return level_from_camera_;
   }
   floor_frames_ = 0;
-  if (floor_confirmed_) return level_from_camera_;  // a body knows it less well
+  if (floor_confirmed_) return level_from_camera_;  // less accurate from a body
   Observe(observed);
   if (standing_frames_ > 0)
     Level(standing_up_.normalized(), options_.body_least_deg, observed.posture);
@@ -189,7 +190,7 @@ void LevelEstimator::Level(const Vector3d& up, double least_deg, const Posture& 
     up_ = Vector3d::UnitY();
     return;
   }
-  // About the person, who then stays where people are for the methods' eyes.
+  // Rotate about the person, who then stays at a distance that the methods expect.
   const Vector3d& root = observed.position_m[0];
   const Vector3d pivot = root.allFinite() ? root : Vector3d::Zero();
   level_from_camera_ = Eigen::Translation3d(pivot) *

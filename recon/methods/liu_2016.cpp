@@ -14,15 +14,15 @@
 namespace ossa::recon {
 namespace {
 
-/// Offset of one joint, with the variance of each coordinate over that of the noise: 0 sure, large
-/// unsure.
+/// Predicted offset of one joint, with the variance of each coordinate relative to the noise
+/// variance: 0 certain, large uncertain.
 struct OffsetPrediction {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   double unsureness = 1e9;
-  double deviation_m = 1e9;  // root of that variance
+  double deviation_m = 1e9;  // standard deviation
 };
 
-/// Sec. 4.5 over any predictor of offsets.
+/// Sec. 4.5 with any predictor of offsets.
 class OffsetReconstructor : public Reconstructor {
  public:
   OffsetReconstructor(const ReconstructorOptions& options, bool (*holds)(const LearnedModels&))
@@ -54,16 +54,16 @@ class OffsetReconstructor : public Reconstructor {
  protected:
   virtual void BeginFrame(const PreparedPosture&) {}
   virtual OffsetPrediction Predict(const PreparedPosture& prepared, size_t joint) = 0;
-  /// `made`: the offset that minimises eq. 22, and how unsure the prediction was.
+  /// `made`: the offset that minimises eq. 22, and the uncertainty of its prediction.
   virtual void Learn(const PreparedPosture&, size_t, const OffsetPrediction& /*made*/) {}
 
   GaussianProcessOptions options_;
   std::shared_ptr<const LearnedModels> models_;
 
  private:
-  /// With the offsets that minimise eq. 22. Departure: an absent joint, which is placed beside its
-  /// parent as it lay there in the posture made before, goes where the parent goes. By its own
-  /// temporal term alone it would drift away by the parent's offset, every frame.
+  /// Adds the offsets that minimise eq. 22. Departure: an absent joint, which keeps its offset from
+  /// the parent in the previous result, moves with its parent. With its own temporal term alone it
+  /// would drift away by the parent's offset, every frame.
   Posture Corrected(const PreparedPosture& prepared, const JointWeights& seen) {
     Posture made = prepared.scaled;
     Posture offsets;
@@ -81,9 +81,9 @@ class OffsetReconstructor : public Reconstructor {
     return made;
   }
 
-  /// 2 M_{t-1} - M_{t-2} of eq. 20 in this frame's normalised space. Departure: the two postures
-  /// are kept in the camera's space: normalised ones would turn and jump with every error of the
-  /// hips that the frame is made of, and the temporal term would carry that on.
+  /// 2 M_{t-1} - M_{t-2} of eq. 20 in this frame's normalised space. Departure: both postures are
+  /// stored in camera space. Normalised ones would rotate and jump with every error of the hips by
+  /// which the frame is normalised, and the temporal term would propagate that.
   std::optional<Posture> Expected(const PreparedPosture& prepared) const {
     if (!last_ || !before_last_) return std::nullopt;
     const double share = prepared.dt_s / last_dt_s_;  // frames need not be evenly spaced
@@ -95,17 +95,17 @@ class OffsetReconstructor : public Reconstructor {
     return Scaled(Normalised(expected, prepared.placement), 1.0 / prepared.scale);
   }
 
-  /// argmin over y of eq. 22. Departure: the three terms are quadratic in y, so the minimum is
-  /// taken in closed form instead of by sampling; and the spatial term's precision is counted in
-  /// units of the noise, which makes the weights 0.6 / 0.2 / 0.2 comparable: without units the
-  /// paper's sum of a log likelihood and square metres has no meaning.
+  /// argmin over y of eq. 22. Departure: the three terms are quadratic in y, so the minimum has a
+  /// closed form and needs no sampling. The spatial term's precision is expressed in units of the
+  /// noise, which makes the weights 0.6 / 0.2 / 0.2 comparable: without units the paper's sum of a
+  /// log likelihood and square metres is meaningless.
   ///
-  /// A posture made is (1 - b) (X + y) + b (2 M' - M''), b the temporal share of all weights. Its
-  /// answer to a jump has poles of modulus sqrt(b): near b = 1, which is where a joint is neither
-  /// sure nor reliable, what was once seen goes on as motion at constant speed and what is seen now
-  /// has no say. The spatial weight therefore never falls below the temporal one ("should be set
-  /// the largest", sec. 4.5): b <= 1/2 halves an error every two frames. Far from all samples the
-  /// predicted offset is none, so that this keeps the joint near where it is seen.
+  /// The result is (1 - b) (X + y) + b (2 M' - M''), where b is the temporal share of all weights.
+  /// Its response to a jump has poles of modulus sqrt(b). Near b = 1, where a joint is neither
+  /// certain nor reliable, an earlier observation would continue at constant speed and the current
+  /// one would have no weight. The spatial weight is therefore never smaller than the temporal one
+  /// ("should be set the largest", sec. 4.5): b <= 1/2 halves an error every two frames. Far from
+  /// all samples the predicted offset is zero, so this keeps the joint near its observation.
   Eigen::Vector3d MinimisingOffset(const OffsetPrediction& p, const PreparedPosture& prepared,
                                    size_t i) const {
     const double spatial =
@@ -123,7 +123,7 @@ class OffsetReconstructor : public Reconstructor {
   }
 
   Person person_;
-  std::optional<Posture> last_, before_last_;  // M_{t-1}, M_{t-2}: as made, camera space
+  std::optional<Posture> last_, before_last_;  // M_{t-1}, M_{t-2}: results, camera space
   std::optional<Posture> expected_;
   double last_dt_s_ = 1.0 / 30.0;
 };
@@ -150,14 +150,15 @@ class Liu2016 : public OffsetReconstructor {
     return {p.mean, p.variance / std::max(p.noise, 1e-12), std::sqrt(p.variance)};
   }
 
-  /// Algorithm 2, of the posture that minimises eq. 22: what the spatial term alone predicts is
-  /// known to it already. Samples are of reliable joints, and sure where a model is near; where
-  /// none is, no prediction is sure, and a model is opened. Departure: one of kEvery frames,
-  /// because postures 30 times a second bring nothing new.
+  /// Algorithm 2, with the posture that minimises eq. 22: the spatial prediction alone holds
+  /// nothing new for the model. Samples are taken from reliable joints, and must be certain if a
+  /// model is near; if none is, no prediction is certain, and a new model is created. Departure:
+  /// one of kEvery frames, because 30 postures per second add nothing new.
   void Learn(const PreparedPosture& prepared, size_t joint, const OffsetPrediction& made) override {
-    // By hand: shares of R_i and of the noise's variance, and what is sure whatever the noise.
+    // By hand: shares of R_i and of the noise variance, and a standard deviation that is certain
+    // whatever the noise.
     constexpr double kReliable = 0.9, kSure = 0.5, kSure_m = 0.02;
-    constexpr uint64_t kEvery = 10;  // frames of a joint; by hand, three samples a second
+    constexpr uint64_t kEvery = 10;  // frames per sample of a joint; by hand, three per second
     const LocalMixture& mixture = MixtureOf(joint);
     if (!options_.incremental || mixture.empty()) return;
     if (prepared.reliability[joint] < kReliable || ++seen_[joint] % kEvery != 0) return;
@@ -174,9 +175,10 @@ class Liu2016 : public OffsetReconstructor {
     return own_[joint] ? *own_[joint] : models_->mixtures[joint];
   }
 
-  // This person's, of joints that have learned on: megabytes that somebody who passes by never has.
+  // This person's models, only for joints with online samples: they take megabytes, which short
+  // visits should not cost.
   JointArray<std::optional<LocalMixture>> own_;
-  JointArray<uint64_t> seen_{};  // frames in which it was reliable
+  JointArray<uint64_t> seen_{};  // number of reliable frames
 };
 
 class FullGp : public OffsetReconstructor {
@@ -196,7 +198,7 @@ class FullGp : public OffsetReconstructor {
   }
 };
 
-/// Mean offset of the nearest training pairs, weighed by their distance.
+/// Mean offset of the nearest training pairs, weighted by distance.
 class Exemplar : public OffsetReconstructor {
  public:
   explicit Exemplar(const ReconstructorOptions& options)
@@ -210,7 +212,7 @@ class Exemplar : public OffsetReconstructor {
 
  protected:
   void BeginFrame(const PreparedPosture& prepared) override {
-    constexpr size_t kNearest = 10;  // by hand; Shen et al. 2012 name none
+    constexpr size_t kNearest = 10;  // by hand; Shen et al. 2012 give no value
     const PostureVector query = ToVector(prepared.scaled);
     const Eigen::VectorXf d = (postures_.colwise() - query).colwise().squaredNorm().transpose();
     nearest_.clear();

@@ -5,15 +5,15 @@
 
 namespace ossa::recon {
 
-/// What options.learned or options.learned_file hold; null when neither is given.
+/// The models in options.learned or options.learned_file; null if neither is given.
 std::shared_ptr<const LearnedModels> LoadLearned(const ReconstructorOptions& options);
 
-/// The same, for a method that works by it: throws InputError where `holds` is false of it, as of a
-/// file that holds the correction of `best` alone.
+/// As LoadLearned, for a method that requires it: throws InputError if `holds` is false for the
+/// models, such as for a file with only the correction of `best`.
 std::shared_ptr<const LearnedModels> LearnedThatHolds(const ReconstructorOptions& options,
                                                       bool (*holds)(const LearnedModels&));
 
-// One maker a method; each lives in the file that its row names.
+// One maker per method, in the file of its row.
 #define OSSA_METHOD(file, maker, ...) \
   std::unique_ptr<Reconstructor> maker(const ReconstructorOptions& options);
 #include "recon/methods/methods.inc"

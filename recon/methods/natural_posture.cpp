@@ -8,20 +8,20 @@ namespace ossa::recon {
 
 namespace {
 
-/// The posture with each joint moved to where it was observed, as far as that is reliable.
+/// The posture with each joint moved towards its observation by its reliability.
 PostureVector WithReliableJoints(const PostureVector& posture, const EnergyInputs& energy) {
   const PostureVector r = CoordinateWeights(energy.reliability);
   return posture + r.cwiseProduct(energy.observed - posture);
 }
 
-/// Departure: without any reliable joint eq. 9 finds all postures alike, and eq. 14 alone would
-/// carry the last motion on and on.
-bool IsNothingReliable(const JointWeights& reliability) {
+/// Departure: without reliable joints all postures are equal by eq. 9, and eq. 14 alone would
+/// continue the last motion forever.
+bool IsNoneReliable(const JointWeights& reliability) {
   constexpr double kLeast = 0.05;  // R_i, a share; by hand
   return std::none_of(reliability.begin(), reliability.end(), [](double r) { return r > kLeast; });
 }
 
-/// The last posture in place of what is observed: its neighbours are those to go on with, at rest.
+/// Replaces the observation by the last posture: its neighbours are selected, at rest.
 void HoldLast(EnergyInputs& energy) {
   energy.observed = *energy.last;
   energy.before_last = energy.last;
@@ -64,18 +64,18 @@ void NaturalPostureMethod::Reset() {
 EnergyInputs NaturalPostureMethod::Inputs(const PreparedPosture& prepared) const {
   EnergyInputs energy;
   energy.observed = ToVector(prepared.normalised);
-  // Method B of Shum 2013: all joints seen count alike.
+  // Method B of Shum 2013: all observed joints have equal weight.
   energy.reliability = options_.use_reliability ? prepared.reliability : prepared.present;
   energy.lengths_m = database_->bone_lengths_m();
   energy.last = last_;
   energy.before_last = before_last_;
-  if (last_ && IsNothingReliable(energy.reliability)) HoldLast(energy);
+  if (last_ && IsNoneReliable(energy.reliability)) HoldLast(energy);
   return energy;
 }
 
 SearchResult NaturalPostureMethod::Search(const PostureSpace& space,
                                           const EnergyInputs& energy) const {
-  // Sec. VI-E: start from the posture made last, so that postures like it are always explored.
+  // Sec. VI-E: start from the last result, so that similar postures are always explored.
   const Eigen::VectorXf start =
       last_ ? space.Project(*last_) : Eigen::VectorXf(space.neighbours.col(0));
   if (options_.solver == "ceres") return SearchCeres(space, energy, options_, start);

@@ -4,8 +4,8 @@
 
 namespace ossa::recon {
 
-/// What shum-2013 and plantard-2016 have in common: a posture made in the natural posture space of
-/// selected database postures (Shum 2013 secs. V-B, VI, VII-B). They differ in how they select.
+/// The common part of shum-2013 and plantard-2016: reconstruction in the natural posture space of
+/// selected database postures (Shum 2013 secs. V-B, VI, VII-B). They differ in the selection.
 class NaturalPostureMethod : public Reconstructor {
  public:
   explicit NaturalPostureMethod(const ReconstructorOptions& options)
@@ -19,7 +19,7 @@ class NaturalPostureMethod : public Reconstructor {
   void Reset() override;
 
  protected:
-  /// The postures that span the space, most similar first, from those of the frame before.
+  /// The postures that span the space, most similar first, given those of the previous frame.
   virtual std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture& prepared,
                                   const ReconstructionInput& input,
                                   std::vector<int> selected_before) = 0;

@@ -1,8 +1,6 @@
 // P. Plantard, H. P. H. Shum, F. Multon, Filtered pose graph for efficient Kinect pose
 // reconstruction, Multimedia Tools and Applications 2016, section 6. The graph of section 4 is in
-// recon/database. Reliability is that of Shum 2013, which section 5 reviews. Departure: eq. 3 as
-// printed, one minus the mean cosine, calls a joint that moves straight on unreliable; the angle of
-// the text is taken.
+// recon/database.
 #include <algorithm>
 
 #include "recon/methods/methods_internal.h"
@@ -12,14 +10,15 @@
 namespace ossa::recon {
 namespace {
 
-// Departure: the reliability is Shum 2013's (eqs. 1-8 there), which sec. 5 reviews. Its eq. 3, one
-// minus the mean angle, has neither floor nor roof nor a unit; in radians it would call every joint
-// wrong that turns by 57 degrees between two frames. Its eq. 4 lets one bone count for more than 1.
+// Departure: the reliability is Shum 2013's (eqs. 1-8 there), which sec. 5 reviews. Eq. 3 as
+// printed, one minus the mean cosine, would rate joints that move straight on as unreliable. With
+// the angle that the text names it has no floor, roof or unit: in radians, every joint that turns
+// by 57 degrees between two frames would be fully unreliable. Eq. 4 lets one bone's relative error
+// exceed 1.
 // Departure: eqs. 6, 8 and 9 print differences of positions where a norm or a square was meant:
-// signs would cancel. The energies are read as the squares of [37] (Shum 2013), which the paper
-// says it takes them from; eq. 8 is a mean where Shum's eq. 10 is a sum. Read as distances, eq. 8
-// lets a whole leg go where that keeps the other joints in place, and eq. 9 holds the posture to
-// one neighbour.
+// signs would cancel. The energies are squared as in [37] (Shum 2013), from which the paper takes
+// them; eq. 8 is a mean where Shum's eq. 10 is a sum. With distances instead, eq. 8 would give up a
+// whole leg to keep the other joints in place, and eq. 9 would tie the posture to one neighbour.
 LocalPcaOptions WithMeanControl(LocalPcaOptions options) {
   options.control /= kJointCount;
   return options;
@@ -33,9 +32,9 @@ class Plantard2016 : public NaturalPostureMethod {
   }
 
  private:
-  /// Sec. 6.2: the K best of the nodes connected to those used last (each is connected to itself,
-  /// algorithm 3); of all nodes when there is no last frame, or when the best of those no longer
-  /// resembles what is seen.
+  /// Sec. 6.2: the K best of the nodes connected to the last ones (each is connected to itself,
+  /// algorithm 3); of all nodes if there is no last frame, or if the best of these no longer
+  /// resembles the observation.
   std::vector<int> Select(const EnergyInputs& energy, const PreparedPosture& prepared,
                           const ReconstructionInput&, std::vector<int> before) override {
     PoseQuery query{energy.observed, energy.reliability, energy.last};
@@ -53,8 +52,9 @@ class Plantard2016 : public NaturalPostureMethod {
       }
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-      // Lost: the graph's neighbourhood is a whole edge farther off than a node of the graph can
-      // be from any posture it covers. Departure: the paper searches fully on the first frame only.
+      // Lost: the neighbourhood is a whole edge farther away than a node of the graph can be from
+      // any posture that it covers. Departure: the paper searches all nodes in the first frame
+      // only.
       const double lost_m = 0.5 * database_->edge_threshold_m() + 0.1;
       PoseSelection connected = search_.SelectBest(candidates, query, k);
       if (connected.similarity_m < lost_m) return connected.nodes;

@@ -10,7 +10,7 @@
 namespace ossa::recon {
 namespace {
 
-// By hand: scored in a tenth of a millisecond. Twice as many nodes are searched one by one.
+// By hand: scored in a tenth of a millisecond. Up to twice as many nodes are all scored.
 constexpr int kCoarse = 2048;
 
 struct Score {
@@ -19,7 +19,7 @@ struct Score {
   float Total() const { return (similar + continuous) / kJointCount; }
 };
 
-/// Eqs. 6 and Sc, read as mean weighted distances.
+/// Ss of eq. 6 and Sc, as mean weighted distances.
 class Scorer {
  public:
   explicit Scorer(const PoseQuery& query) : query_(query) {
@@ -61,11 +61,11 @@ PoseSelection Selected(std::vector<Scored> scored, size_t k, double similarity_m
   return selection;
 }
 
-/// The k best nodes found on the way down, and which of them have shown their neighbours.
+/// The k best nodes found by the search, and which of them have been expanded.
 class Beam {
  public:
   Beam(size_t k, size_t nodes) : k_(std::max<size_t>(k, 1)), known_(nodes) {}
-  /// Whether the node is new; it is known from now on.
+  /// Whether the node is new; marks it as visited.
   bool Meet(int node) {
     const auto at = static_cast<size_t>(node);
     if (known_[at]) return false;
@@ -81,7 +81,7 @@ class Beam {
         entry);
     if (best_.size() > k_) best_.pop_back();
   }
-  /// The best node whose neighbours were not looked at; it is taken as looked at.
+  /// The best unexpanded node; marks it as expanded.
   std::optional<int> TakeNext() {
     for (Entry& entry : best_) {
       if (!std::exchange(entry.expanded, true)) return entry.scored.second;

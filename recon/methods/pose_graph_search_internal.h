@@ -8,7 +8,7 @@
 
 namespace ossa::recon {
 
-/// What Plantard 2016 holds a node of the graph against.
+/// The query with which Plantard 2016 compares the nodes of the graph.
 struct PoseQuery {
   PostureVector observed = PostureVector::Zero();  // normalised, standard size
   JointWeights reliability{};                      // R_i in [0, 1]
@@ -18,7 +18,7 @@ struct PoseQuery {
 /// The nodes of lowest score S = Ss + Sc (eqs. 6-7), best first.
 struct PoseSelection {
   std::vector<int> nodes;
-  double similarity_m = 0.0;  // least Ss of all that were looked at, per unit of reliability
+  double similarity_m = 0.0;  // smallest Ss of all scored nodes, per unit of reliability
 };
 
 /// Sec. 6.2 over a pose graph of any size.
@@ -26,21 +26,20 @@ class PoseGraphSearch {
  public:
   explicit PoseGraphSearch(std::shared_ptr<const PostureDatabase> database);
 
-  /// The k best of these nodes.
+  /// The k best of the given nodes.
   PoseSelection SelectBest(std::span<const int> nodes, const PoseQuery& query, size_t k) const;
-  /// The k best of all nodes. Departure where there are more than some thousand: the paper searches
-  /// all; this begins at a coarse level, one node of many, and at `start`, and goes down the graph
-  /// from the best found, node by node, until the k best know no better one. What it costs hardly
-  /// grows with the graph; it may end beside the best.
+  /// The k best of all nodes. Departure for more than some thousand nodes, all of which the paper
+  /// searches: starts from a coarse subset and from `start`, and expands the best nodes along the
+  /// graph's edges until the k best have no better neighbours. The cost hardly grows with the
+  /// graph; the result may be slightly suboptimal.
   PoseSelection SelectBestOfAll(const PoseQuery& query, size_t k, std::span<const int> start) const;
 
  private:
   PoseSelection Descend(const PoseQuery& query, size_t k, std::span<const int> start) const;
 
   std::shared_ptr<const PostureDatabase> database_;
-  std::vector<int>
-      coarse_;  // evenly spread: clips stand one after the other, frames in their order
-  Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> coarse_postures_;  // a copy, side by side
+  std::vector<int> coarse_;  // evenly spread over consecutive clips
+  Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> coarse_postures_;  // contiguous copy
 };
 
 }  // namespace ossa::recon

@@ -2,8 +2,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "depth/base/random.h"
 #include "recon/methods/posture_space_internal.h"
 
 namespace ossa::recon {
@@ -16,7 +16,7 @@ PostureVector CoordinateWeights(const JointWeights& weights) {
   return out;
 }
 
-// Lazy products: small sizes, and GCC 12 takes the blocked kernel's loop for endless.
+// Lazy products: the sizes are small, and GCC 12 warns of an infinite loop in the blocked kernel.
 PostureVector PostureSpace::Posture(const Eigen::VectorXf& q) const {
   return mean + basis.lazyProduct(q);
 }
@@ -26,8 +26,8 @@ Eigen::VectorXf PostureSpace::Project(const PostureVector& x) const {
   return basis.transpose().lazyProduct(d);
 }
 
-// The covariance D D' and the matrix D'D have the same eigenvalues but for zeros, and D takes the
-// eigenvectors of D'D to those of D D': the smaller of both is decomposed. Which goes by K alone.
+// The covariance D D' and the matrix D'D have the same non-zero eigenvalues, and D maps the
+// eigenvectors of D'D to those of D D'. The smaller matrix is decomposed; K alone decides which.
 PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const int> neighbours,
                               int dimensions) {
   const auto k = static_cast<Eigen::Index>(neighbours.size());
@@ -46,7 +46,7 @@ PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const i
     products = d * d.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> eigen(products);
-  const Eigen::VectorXf values = eigen.eigenvalues();  // rising
+  const Eigen::VectorXf values = eigen.eigenvalues();  // ascending
   const Eigen::Index most = values.size();
   Eigen::Index dims = 0;
   const float smallest = std::max(1e-8F, 1e-5F * std::max(values[most - 1], 0.0F));
@@ -74,7 +74,7 @@ PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const i
 
 namespace {
 
-/// Squared norm of three columns (x y z over the samples).
+/// Squared norms of x y z columns, per sample.
 Eigen::ArrayXf SquaredNorm(const Eigen::Ref<const Eigen::ArrayXXf>& xyz) {
   return xyz.col(0).square() + xyz.col(1).square() + xyz.col(2).square();
 }
@@ -107,7 +107,8 @@ Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
     const auto length = static_cast<float>(inputs.lengths_m[i]);
     kinematics += (SquaredNorm(d).sqrt() - length).square();  // eq. 12
   }
-  // Eq. 11 in the space: |x - p_n|^2 = |q - q_n|^2 + what of p_n lies outside the space.
+  // Eq. 11 within the space: |x - p_n|^2 = |q - q_n|^2 + the squared distance of p_n from the
+  // space.
   Eigen::ArrayXXf style = (-2.0F * q * space.neighbours).array();
   style.colwise() += q.rowwise().squaredNorm().array();
   style.rowwise() += (space.neighbours.colwise().squaredNorm() + space.outside.transpose()).array();
@@ -118,39 +119,39 @@ Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
          static_cast<float>(options.continuity) * continuity / float(kJointCount);  // eq. 15
 }
 
+namespace {
+
+/// Nearly standard normal: the sum of four uniform numbers (Irwin-Hall), which is sufficient for
+/// exploration and, unlike Random::Normal, needs no logarithm.
+float DrawNormal(Random& random) {
+  const uint64_t bits = random.Bits();
+  int64_t sum = 0;
+  for (int k = 0; k < 4; ++k) sum += static_cast<int64_t>((bits >> (16 * k)) & 0xFFFF);
+  return static_cast<float>(static_cast<double>(sum - 2 * 65535) / 37836.8);  // unit variance
+}
+
+}  // namespace
+
 SearchResult SearchStochastic(const PostureSpace& space, const EnergyInputs& inputs,
                               const LocalPcaOptions& options, const Eigen::VectorXf& start,
                               uint64_t seed) {
   SearchResult best{start, 0.0, 0};
   best.energy = Energies(space, inputs, options, start.transpose())[0];
   if (space.dimensions() == 0) return best;
-  // splitmix64 and the sum of four uniforms (Irwin-Hall): normal enough to explore, and the same
-  // on every standard library.
-  uint64_t state = seed;
-  const auto uniform = [&state] {
-    uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31);
-  };
-  const auto normal = [&uniform] {
-    const uint64_t bits = uniform();
-    int64_t sum = 0;
-    for (int k = 0; k < 4; ++k) sum += static_cast<int64_t>((bits >> (16 * k)) & 0xFFFF);
-    return static_cast<float>(static_cast<double>(sum - 2 * 65535) / 37836.8);  // unit variance
-  };
+  Random random(seed);
   Eigen::MatrixXf q(options.samples, space.dimensions());
-  // The paper gives no radius. Of many samples in n dimensions the best step is about as long as
-  // the way to go over sqrt(n) (evolution strategies, Beyer 2001): begin with the neighbours' own
-  // spread over the square root, widen on success, narrow on failure. Directions in which they
-  // hardly differ are searched as well, or the user could not differ from them either.
+  // The paper gives no radius. With many samples in n dimensions, the best step is about the
+  // distance to the optimum over sqrt(n) (evolution strategies, Beyer 2001). Start with the
+  // neighbours' own spread over sqrt(n), widen on success, narrow on failure. Directions in which
+  // the neighbours hardly differ are searched, too; otherwise the user could not differ from them
+  // either.
   const float root_n = std::sqrt(static_cast<float>(q.cols()));
   const float narrowest = 0.5F * space.deviation.norm() / root_n;
   float radius = 1.0F / root_n;
   for (; best.steps < options.steps && radius > 0.005F; ++best.steps) {
     for (Eigen::Index c = 0; c < q.cols(); ++c) {
       const float spread = radius * std::max(space.deviation[c], narrowest);
-      for (Eigen::Index s = 0; s < q.rows(); ++s) q(s, c) = best.q[c] + spread * normal();
+      for (Eigen::Index s = 0; s < q.rows(); ++s) q(s, c) = best.q[c] + spread * DrawNormal(random);
     }
     const Eigen::ArrayXf energies = Energies(space, inputs, options, q);
     Eigen::Index winner = 0;

@@ -25,7 +25,7 @@ struct PostureSpace {
 PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const int> neighbours,
                               int dimensions);
 
-/// What the energy of eq. 15 compares a posture of the space with. All in the normalised frame.
+/// Inputs of the energy of eq. 15, all in the normalised frame.
 struct EnergyInputs {
   PostureVector observed = PostureVector::Zero();  // p_k
   JointWeights reliability{};                      // R_i
@@ -38,9 +38,9 @@ struct EnergyInputs {
 Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
                         const LocalPcaOptions& options, const Eigen::MatrixXf& q);
 
-/// E of eq. 15 as least squares: E = |r(q)|^2. Rows: control 60, kinematics 19, continuity 60
-/// (zero without history), style one a dimension (against neighbour `nearest`; the part outside the
-/// space is constant).
+/// E of eq. 15 as least squares: E = |r(q)|^2. Rows: control 60, kinematics 19, continuity 60 (zero
+/// without history), style one per dimension (relative to neighbour `nearest`; its distance from
+/// the space is constant).
 class EnergyResiduals {
  public:
   EnergyResiduals(const PostureSpace& space, const EnergyInputs& inputs,
@@ -68,12 +68,12 @@ SearchResult SearchStochastic(const PostureSpace& space, const EnergyInputs& inp
                               const LocalPcaOptions& options, const Eigen::VectorXf& start,
                               uint64_t seed);
 
-/// Ours: the same energy minimised by Levenberg-Marquardt (Ceres), the style
-/// term's nearest neighbour chosen anew between runs.
+/// Ours: minimises the same energy by Levenberg-Marquardt (Ceres); the nearest neighbour of the
+/// style term is updated between runs.
 SearchResult SearchCeres(const PostureSpace& space, const EnergyInputs& inputs,
                          const LocalPcaOptions& options, const Eigen::VectorXf& start);
 
-/// Expanded to one weight a coordinate.
+/// The weights repeated for each coordinate.
 PostureVector CoordinateWeights(const JointWeights& weights);
 
 }  // namespace ossa::recon

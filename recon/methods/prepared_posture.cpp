@@ -8,7 +8,7 @@
 namespace ossa::recon {
 namespace {
 
-/// The standard stance, two metres away: what is said of a person of whom nothing was ever seen.
+/// The standard stance two metres away: the result for a person of whom nothing was ever seen.
 Posture StanceInCamera(const BoneLengths& lengths, double yaw_rad) {
   Placement placement{{0.0, 0.0, 2.0}, yaw_rad};
   Posture stance = StandardStance();
@@ -17,7 +17,7 @@ Posture StanceInCamera(const BoneLengths& lengths, double yaw_rad) {
   return Placed(Retargeted(stance, lengths), placement);
 }
 
-/// Translation that brings the model onto the present joints: the median per coordinate.
+/// Translation that aligns the model with the present joints: the median per coordinate.
 Eigen::Vector3d OffsetTo(const Posture& model, const Posture& seen, const JointWeights& present) {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
@@ -31,10 +31,10 @@ Eigen::Vector3d OffsetTo(const Posture& model, const Posture& seen, const JointW
   return offset;
 }
 
-/// Shum & Ho 2012 eqs. 3-4 where some joints were not seen: a joint whose parent is missing is
-/// placed from its nearest ancestor that is there, at the distance it was seen, in proportion to
-/// the bones between. Departure: the paper goes from joint to joint, which keeps of a hand whose
-/// arm is hidden no more than the direction of its last bone from a guessed wrist.
+/// Shum & Ho 2012 eqs. 3-4 with unseen joints: a joint whose parent is missing is placed relative
+/// to its nearest present ancestor, at the observed distance scaled by the ratio of the bones
+/// between. Departure: the paper works joint by joint, which would keep of a hand with a hidden arm
+/// only the direction of its last bone from a guessed wrist.
 Posture RetargetedAsSeen(const Posture& own, const JointWeights& present,
                          const BoneLengths& own_lengths) {
   const BoneLengths& standard = StandardBoneLengths();
@@ -116,7 +116,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   out.restarted = !step_s;
   if (step_s) out.dt_s = std::max(*step_s, 0.005);
   if (out.restarted) {
-    estimator_.ForgetMotion();  // displacements across a gap are no vibration
+    estimator_.ForgetMotion();  // displacements across a gap are not vibration
     if (!started_) size_ = FreshSize();
   }
   const Reliability r =
@@ -126,7 +126,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   for (size_t i = 0; i < kJointCount; ++i) {
     const Eigen::Vector3d& p = input.observed.posture.position_m[i];
     const bool there = input.observed.state[i] != TrackingState::kNotTracked && p.allFinite() &&
-                       p.cwiseAbs().maxCoeff() < 100.0;  // no person is 100 m away
+                       p.cwiseAbs().maxCoeff() < 100.0;  // plausible distances only
     out.present[i] = there ? 1.0 : 0.0;
     if (!there) out.reliability[i] = 0.0;
   }

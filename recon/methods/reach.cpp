@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Bones of a sensor's skeletons are off by up to a third in the course of a move (measured, see
-/// trust in `best`); no unit: a ratio.
+/// Bone lengths of sensors vary by up to a third during a movement (measured, see trust in `best`);
+/// no unit: a ratio.
 constexpr double kStretch = 1.3;
 
 std::vector<size_t> FindNeighbours(size_t joint) {
@@ -24,7 +24,7 @@ std::vector<size_t> FindNeighbours(size_t joint) {
   return neighbours;
 }
 
-/// Bones to the nearest present joint, of every joint.
+/// Number of bones from each joint to the nearest present one.
 JointArray<int> CountBones(const JointWeights& present) {
   constexpr int kFar = std::numeric_limits<int>::max();
   JointArray<int> bones;
@@ -43,8 +43,8 @@ JointArray<int> CountBones(const JointWeights& present) {
   return bones;
 }
 
-/// Calls `place(joint, nearer)` for absent joints, the nearest to present ones first; `nearer` are
-/// its neighbours that are one bone nearer.
+/// Calls `place(joint, nearer)` for absent joints in order of their distance to present ones;
+/// `nearer` are the neighbours that are one bone closer.
 template <typename Place>
 void ForEachAbsent(const JointWeights& present, const Place& place) {
   const auto bones = CountBones(present);
@@ -84,7 +84,7 @@ void PlaceFromPresent(Posture& posture, const JointWeights& present, const Postu
 void PullIntoReach(Posture& posture, const JointWeights& present, const BoneLengths& lengths_m) {
   ForEachAbsent(present, [&](size_t joint, const std::vector<size_t>& nearer) {
     for (const size_t other : nearer) {
-      const double reach_m = kStretch * lengths_m[std::max(joint, other)];  // of the child
+      const double reach_m = kStretch * lengths_m[std::max(joint, other)];  // bone of the child
       const Vector3d bone = posture.position_m[joint] - posture.position_m[other];
       if (!(bone.norm() > reach_m)) continue;
       posture.position_m[joint] = posture.position_m[other] + reach_m * bone.normalized();

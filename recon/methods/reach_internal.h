@@ -4,17 +4,17 @@
 
 namespace ossa::recon {
 
-/// Whether joints are present (1, not 0), but neither HipCenter, Spine nor ShoulderCenter.
+/// Whether any joints are present (1), but neither HipCenter, Spine nor ShoulderCenter.
 bool IsTrunkUnseen(const JointWeights& present);
 
-/// Places every absent joint from the nearest present ones along the bones, whichever way these go:
-/// as it lies to them in `model`, the middle where two are as near. Of a body whose trunk is not
-/// seen: from a root that follows the joints seen it would drift away from them, a little a frame.
-/// `present` (1 or 0) must hold for one joint at least.
+/// Places each absent joint relative to the nearest present ones along the bones, in either
+/// direction, with its offset in `model`; the mean if two are equally near. For bodies without a
+/// visible trunk: relative to a root that follows the visible joints, the others would slowly drift
+/// away. At least one joint must be `present` (1 or 0).
 void PlaceFromPresent(Posture& posture, const JointWeights& present, const Posture& model);
 
-/// Pulls absent joints into the reach of the nearest present ones: no bone on the way is longer
-/// than 1.3 times its length. What is in reach stays.
+/// Pulls absent joints within reach of the nearest present ones: no bone between them is longer
+/// than 1.3 times its length. Joints within reach are unchanged.
 void PullIntoReach(Posture& posture, const JointWeights& present, const BoneLengths& lengths_m);
 
 }  // namespace ossa::recon

@@ -13,8 +13,8 @@
 namespace ossa::recon {
 namespace {
 
-// What a method has moved farther is no longer where it was measured, and not tracked: more than
-// any sensor's systematic error, which is taken off. By hand.
+// A joint moved farther than this by a method is not at its observation and not tracked: more than
+// any sensor's systematic error. By hand.
 constexpr double kMeasured_m = 0.15;
 
 BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
@@ -38,10 +38,10 @@ BodyRecord Reconstructed(const BodyRecord& body, const TrackedPosture& observed,
   return out;
 }
 
-// Who comes back later under the same id is measured anew.
+// People who return after this under the same id are measured again.
 constexpr double kForgotten_s = 60.0;
 
-/// A person, and where in the result the posture of the last frame is, which may be revised.
+/// A person's reconstructor, and the index of the last posture in the result, which may be revised.
 struct Follower {
   std::unique_ptr<Reconstructor> method;
   TrackedPosture observed;
@@ -58,7 +58,7 @@ std::unique_ptr<Reconstructor> MethodFor(int person, const ReconstructorOptions&
   return MakeReconstructor(with);
 }
 
-/// The people of a recording, and its frames as far as they are reconstructed.
+/// The people of a recording, and the frames reconstructed so far.
 class SequenceRun {
  public:
   SequenceRun(const ReconstructorOptions& options, const BoneLengthsById& bones)
@@ -73,7 +73,7 @@ class SequenceRun {
     }
     frames_.push_back(std::move(made));
   }
-  /// Bone lengths as the methods estimate them in the end.
+  /// The methods' final estimates of bone lengths.
   BoneLengthsById Bones() {
     Forget(std::numeric_limits<double>::infinity());
     return measured_;
@@ -81,7 +81,7 @@ class SequenceRun {
   std::vector<SkeletonFrame>& frames() { return frames_; }
 
  private:
-  /// Drops those last seen before `time_s`; their bone lengths are kept.
+  /// Drops people last seen before `time_s`; their bone lengths are kept.
   void Forget(double time_s) {
     std::erase_if(people_, [&](const auto& entry) {
       const Follower& person = entry.second;
@@ -91,7 +91,7 @@ class SequenceRun {
       return true;
     });
   }
-  /// One person in the frame that is added, in which the result is body number `place`.
+  /// Reconstructs one person in the current frame; `place` is the body's index in the result.
   BodyRecord Step(const SkeletonFrame& frame, const BodyRecord& body, size_t place) {
     Follower& person = people_[body.id];
     if (!person.method) person.method = MethodFor(body.id, options_, bones_);
@@ -123,12 +123,12 @@ void ExpectEachBodyOnce(const SkeletonFrame& frame, const std::string& source) {
                                frame.frame, *id));
 }
 
-/// As ReconstructSequence. `measured`, if given: bones as the methods estimate them in the end.
+/// As ReconstructSequence. `measured`, if given, receives the final estimates of bone lengths.
 SkeletonSequence Run(const SkeletonSequence& sequence, ReconstructorOptions options,
                      const std::function<bool(size_t)>& progress, const BoneLengthsById& bones,
                      BoneLengthsById* measured) {
   options.learned = LoadLearned(options);  // read once, not for each person
-  MakeReconstructor(options);              // complain before any work
+  MakeReconstructor(options);              // validate before any work
   SequenceRun run(options, bones);
   for (const SkeletonFrame& frame : sequence.frames) {
     ExpectEachBodyOnce(frame, sequence.source);

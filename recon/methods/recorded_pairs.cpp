@@ -14,21 +14,21 @@ namespace {
 // Constants: by hand.
 
 constexpr double kSameTime_s = 0.02;
-// Nobody knows what a limb did between frames farther apart.
+// Frames farther apart are not interpolated.
 constexpr double kLongestStep_s = 0.1;
-// Farther off than this the observation shows another limb; there is no offset to learn from it.
+// Larger offsets belong to another limb and teach nothing.
 constexpr double kFarthestResidual_m = 0.5;
 
-/// The truth at one moment: between two frames; of one alone both are the same. Empty: not known.
+/// The truth at one time, between two frames (both the same for a single frame). Empty: unknown.
 struct TrueMoment {
   const SkeletonFrame* before = nullptr;
   const SkeletonFrame* after = nullptr;
-  double share = 0.0;  // of the way from `before` to `after`
+  double share = 0.0;  // interpolation weight from `before` to `after`
 };
 
-/// Frames of the same number. Nothing where numbers and times do not tell the same story: of
-/// recordings of two rates all numbers are shared, and all but the first frame are other moments.
-/// Clocks may drift apart where the recordings have all frames in common.
+/// Pairs frames by number. Empty if numbers and times are inconsistent: recordings of two rates
+/// share all numbers, but only the first frames coincide. Clocks may drift if the recordings have
+/// the same frames.
 std::vector<TrueMoment> ByNumber(const SkeletonSequence& observed, const SkeletonSequence& truth) {
   constexpr double kDrift_s = 0.5;
   std::map<int64_t, const SkeletonFrame*> numbered;
@@ -89,8 +89,7 @@ std::optional<Eigen::Vector3d> TrueJoint(const TrueMoment& moment, int id, size_
                          moment.share * (after->position_m - before->position_m));
 }
 
-/// What was observed of a body in one frame beside what was true. Nothing where too few joints are
-/// known.
+/// The pair of observation and truth of a body in one frame; none if too few joints are known.
 std::optional<PosturePair> MakePair(const PreparedPosture& prepared, const TrueMoment& moment,
                                     int id) {
   constexpr double kFewest = 4.0;  // joints, weights of 1
@@ -119,7 +118,7 @@ std::optional<PosturePair> MakePair(const PreparedPosture& prepared, const TrueM
   return pair;
 }
 
-/// A person who is observed, with pairs in the order of time.
+/// An observed person, with pairs in order of time.
 struct Observed {
   Person person;
   std::vector<PosturePair> pairs;

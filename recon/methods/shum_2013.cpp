@@ -42,10 +42,10 @@ class Shum2013 : public NaturalPostureMethod {
     return selected;
   }
 
-  /// Sec. IX: a posture of which every joint is reliable and tracked, and which the database's own
-  /// filter would have kept, joins the person's copy of it.
+  /// Sec. IX: adds a posture whose joints are all reliable and tracked, and which the database's
+  /// own filter would keep, to the person's copy of the database.
   void Extend(const PreparedPosture& prepared, const ReconstructionInput& input) {
-    constexpr int kMostAdded = 2000;   // by hand: a minute of postures that are all new
+    constexpr int kMostAdded = 2000;   // by hand: a minute of entirely new postures
     constexpr double kReliable = 0.9;  // R_i, a share; by hand
     const bool good = std::all_of(prepared.reliability.begin(), prepared.reliability.end(),
                                   [](double r) { return r > kReliable; }) &&
@@ -58,8 +58,8 @@ class Shum2013 : public NaturalPostureMethod {
     own_->Add(vector, ComputeOrientations(standard), "observed");
   }
 
-  std::shared_ptr<const PostureDatabase> given_;  // without what was added
-  std::shared_ptr<PostureDatabase> own_;          // with it; none while nothing shall be added
+  std::shared_ptr<const PostureDatabase> given_;  // without added postures
+  std::shared_ptr<PostureDatabase> own_;  // with added postures; none if nothing may be added
 };
 
 }  // namespace

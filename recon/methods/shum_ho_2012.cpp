@@ -13,7 +13,7 @@ constexpr int kReducedDims = 7;  // sec. 5.2: 60 dimensions reduced to 7
 
 using Reduced = Eigen::VectorXf;
 
-/// P_dr: the database through its global PCA.
+/// P_dr: the database projected by its global PCA.
 struct ReducedDatabase {
   Eigen::MatrixXf projection;  // 60 x 7
   Eigen::MatrixXf postures;    // 7 x N
@@ -38,10 +38,10 @@ class ShumHo2012 : public Reconstructor {
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const PreparedPosture prepared = person_.Prepare(input);
     const int match = BestMatch(prepared);
-    // Sec. 6.1: what the sensor has stays, what it misses comes from the matched posture.
-    // Departure: a missing joint hangs on its parent as it does there. The paper takes its
-    // position, which keeps no segment's length, and leaves that to the physical character; without
-    // one, eqs. 3-4 would shorten what the two positions disagree about.
+    // Sec. 6.1: observed joints are kept, missing ones come from the matched posture. Departure: a
+    // missing joint keeps its offset from the parent in the matched posture. The paper takes its
+    // position, which preserves no segment's length, and leaves that to the physical character;
+    // without a character, eqs. 3-4 would shorten bones by the difference of the two positions.
     Posture merged = prepared.normalised;
     const Posture matched = database_->posture(match);
     for (size_t i = 1; i < kJointCount; ++i) {
@@ -51,8 +51,8 @@ class ShumHo2012 : public Reconstructor {
           merged.position_m[parent] + matched.position_m[i] - matched.position_m[parent];
     }
     ReconstructedPosture out{person_.InCamera(merged, prepared), prepared.reliability};
-    // Sec. 6.2. Departure: all turns about the bones are the matched posture's; of positions alone,
-    // without the SDK's orientations, none is known.
+    // Sec. 6.2. Departure: all axial rotations are the matched posture's, because positions alone,
+    // without the SDK's orientations, do not determine them.
     const int matches[] = {match};
     const double weights[] = {1.0};
     out.orientation =
@@ -65,8 +65,8 @@ class ShumHo2012 : public Reconstructor {
   void Reset() override { person_.Reset(); }
 
  private:
-  /// Sec. 5.2: the posture nearest in the reduced space; a joint that the sensor does not have in
-  /// this frame counts as the mean. The paper knows no reliability: inferred joints are there.
+  /// Sec. 5.2: the nearest posture in the reduced space; joints missing in this frame are set to
+  /// the mean. The paper has no reliability: inferred joints count as present.
   int BestMatch(const PreparedPosture& prepared) const {
     PostureVector difference = ToVector(prepared.normalised) - database_->mean();
     for (size_t i = 0; i < kJointCount; ++i) {

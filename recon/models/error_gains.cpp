@@ -29,7 +29,8 @@ JointWeights ComputeGains(const std::vector<PosturePair>& pairs, const std::vect
     const auto m = kMirroredJoint[j];
     const double total = square[j] + square[m];
     const double held = total > 0.0 ? (agree[j] + agree[m]) / total : 0.0;
-    // What holds by less than half differs between people more than it is theirs in common.
+    // No unit. A gain below a half means that errors differ between people more than they have in
+    // common.
     constexpr double kLeastGain = 0.5;
     gains[j] = held < kLeastGain ? 0.0 : std::min(held, 1.0);
   }

@@ -107,8 +107,9 @@ std::vector<int> BudgetedSamples(const GaussianProcessParameters& p, const Eigen
     int least = 0;
     double least_kl = std::numeric_limits<double>::infinity();
     for (Eigen::Index t = 0; t < inverse.rows(); ++t) {
-      // Leave-one-out in closed form: without sample t, mean y - alpha_t / K^-1_tt and variance
-      // 1 / K^-1_tt; with it, mean y - alpha_t / beta and variance noise (2 - noise K^-1_tt).
+      // Leave-one-out in closed form: without sample t the mean is y - alpha_t / K^-1_tt and the
+      // variance 1 / K^-1_tt; with it the mean is y - alpha_t / beta and the variance noise (2 -
+      // noise K^-1_tt).
       const double without = 1.0 / inverse(t, t);
       const double with = std::max(noise * (2.0 - noise * inverse(t, t)), 1e-3 * noise);
       const double shift2 = alpha.row(t).squaredNorm() * std::pow(without - noise, 2.0);

@@ -19,22 +19,22 @@ struct GaussianProcessParameters {
 struct GaussianPrediction {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // eq. 8
   double variance = 0.0;                           // eq. 9, of each coordinate, without the noise
-  double noise = 0.0;  // variance of the samples' noise in those that predicted, square metres
+  double noise = 0.0;  // noise variance of the predicting models, square metres
 };
 
-/// Gaussian-process regression from a feature to an offset in space; the three coordinates share
-/// the kernel.
+/// Gaussian process regression from a feature to a 3D offset; the three coordinates share the
+/// kernel.
 class GaussianProcess {
  public:
   GaussianProcess() = default;
-  /// inputs: one sample a row; outputs: as many rows, 3 columns. At least one sample.
+  /// inputs: one sample per row; outputs: as many rows, 3 columns. At least one sample.
   GaussianProcess(GaussianProcessParameters parameters, Eigen::MatrixXd inputs,
                   Eigen::MatrixXd outputs);
 
   GaussianPrediction Predict(const Eigen::VectorXd& input) const;
-  /// Only the mean: no triangular solve.
+  /// Only the mean, without a triangular solve.
   Eigen::Vector3d PredictMean(const Eigen::VectorXd& input) const;
-  /// One more sample in O(S^2): the Cholesky factor grows by a row (eqs. 15-17).
+  /// Adds a sample in O(S^2): the Cholesky factor grows by a row (eqs. 15-17).
   void Add(const Eigen::VectorXd& input, const Eigen::Vector3d& output);
 
   int size() const { return static_cast<int>(inputs_.rows()); }
@@ -62,16 +62,16 @@ double NegativeLogLikelihood(const GaussianProcessParameters& parameters,
                              const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
                              double gradient[4]);
 
-/// Parameters that maximise eq. 6 from `start`, by L-BFGS (Ceres), within sane bounds; `start`
-/// where the maximisation fails.
+/// Parameters that maximise eq. 6, starting from `start`, by L-BFGS (Ceres) within plausible
+/// bounds; `start` if the optimisation fails.
 GaussianProcessParameters LearnParameters(const Eigen::MatrixXd& inputs,
                                           const Eigen::MatrixXd& outputs,
                                           const GaussianProcessParameters& start);
 
-/// Liu 2016 sec. 3.2, posture budgeting: drops, one after the other, the sample whose removal
-/// changes the prediction at its own place least (KL divergence of eqs. 1-2) until `keep` are left
-/// (the paper gives no limit of the divergence, but the size S of a local model).
-/// Returns the rows kept, rising.
+/// Liu 2016 sec. 3.2, posture budgeting: repeatedly drops the sample whose removal changes the
+/// prediction at its own input least (KL divergence of eqs. 1-2) until `keep` are left (the paper
+/// gives no limit of the divergence, but the size S of a local model). Returns the kept rows,
+/// ascending.
 std::vector<int> BudgetedSamples(const GaussianProcessParameters& parameters,
                                  const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
                                  int keep);

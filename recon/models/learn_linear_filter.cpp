@@ -1,5 +1,5 @@
-// LinearFilter::Learn. Everything that is asked of what is left out, of every strength, follows
-// from products of regressors and errors that are added up once.
+// LinearFilter::Learn. All held-out errors, for any ridge strength, are computed from products of
+// regressors and errors that are accumulated once.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -15,19 +15,19 @@ namespace {
 
 // Constants: chosen by hand, where nothing else is said.
 
-constexpr int kParts = 2;  // errors of position without their mean; their second differences
+constexpr int kParts = 2;  // position errors without their mean; their second differences
 constexpr Eigen::Index kColumns = 3 * LinearFilter::kOutputs;
 
-/// A joint's stretch of frames, one after the other, in which its truth is known.
+/// Consecutive frames in which the truth of a joint is known.
 struct Stretch {
   std::vector<const PosturePair*> pairs;
   std::vector<Posture> seen;  // in camera space
 };
 
-/// Sums of products of each part: x the regressors, y the errors.
+/// Sums of products for each part: x the regressors, y the errors.
 struct Products {
   std::array<Eigen::MatrixXd, kParts> xx;
-  std::array<Eigen::MatrixXd, kParts> xy;  // a column an axis; of influences one, for all
+  std::array<Eigen::MatrixXd, kParts> xy;  // a column per axis; influence weights: one for all
 
   void AddTimes(double factor, const Products& other);
 };
@@ -45,10 +45,10 @@ void Products::AddTimes(double factor, const Products& other) {
 
 /// Sums over the stretches of a fold.
 struct Sums {
-  // Of steps: for both outputs alike. Of influences: now and before, then robust ones of which they
-  // are learned, now and before.
+  // Of step weights: one for both outputs. Of influence weights: now and before, then their
+  // robustly weighted versions from which the weights are learned, now and before.
   std::vector<Products> of;
-  // Of each part and output: squares of the errors, and of what LagFilter leaves of them.
+  // For each part and output: sums of squared errors, of the raw joint and of LagFilter.
   std::array<std::array<double, LinearFilter::kOutputs>, kParts> yy{}, lag{};
   double rows = 0.0;
 
@@ -80,7 +80,7 @@ Posture InCamera(const PosturePair& pair) {
   return Placed(Scaled(pair.observed, pair.scale), pair.placement);
 }
 
-/// Truth minus observed, metres in the body's frame, x turned round for a mirrored joint.
+/// Truth minus observation, metres in the body frame; x negated for a mirrored joint.
 Eigen::Vector3d ComputeError(const PosturePair& pair, size_t joint, bool mirrored) {
   Eigen::Vector3d error = pair.scale * pair.residual.position_m[joint];
   if (mirrored) error.x() = -error.x();
@@ -92,8 +92,8 @@ Eigen::Vector3d Turned(const Eigen::Vector3d& p, double angle_rad) {
   return {c * p.x() + s * p.z(), p.y(), -s * p.x() + c * p.z()};
 }
 
-/// The joint's error of each output that LagFilter leaves, from frame kFewest on.
-Eigen::MatrixXd LeftByLagFilter(const Stretch& stretch, size_t joint) {
+/// Remaining error of each output with LagFilter, from frame kFewest on.
+Eigen::MatrixXd ResidualsOfLagFilter(const Stretch& stretch, size_t joint) {
   Eigen::MatrixXd left(static_cast<Eigen::Index>(stretch.seen.size()), kColumns);
   LagFilter filter;
   for (size_t f = 0; f < stretch.seen.size(); ++f) {
@@ -118,20 +118,20 @@ Eigen::MatrixXd Part(const Eigen::MatrixXd& m, size_t part) {
   return m.bottomRows(n) - 2.0 * m.middleRows(1, n) + m.topRows(n);
 }
 
-/// What the filter sees in the frame, and since when.
-struct Seen {
+/// The filter's input in a frame, and how many steps are valid.
+struct FilterInput {
   std::span<const Posture> window;
   LinearFilter::Steps steps;
 };
 
-Seen SeenIn(const Stretch& stretch, size_t frame) {
+FilterInput FilterInputAt(const Stretch& stretch, size_t frame) {
   const size_t known = std::min(frame, size_t{LinearFilter::kSteps});
-  Seen seen{std::span(stretch.seen).subspan(frame - known, known + 1), {}};
+  FilterInput seen{std::span(stretch.seen).subspan(frame - known, known + 1), {}};
   seen.steps.fill(static_cast<int>(known));
   return seen;
 }
 
-/// Both outputs' errors in frames from kFewest on, in the body's frame now.
+/// Errors of both outputs, from frame kFewest on, in the current body frame.
 Eigen::MatrixXd ComputeErrors(const Stretch& stretch, size_t joint, bool mirrored) {
   Eigen::MatrixXd y(static_cast<Eigen::Index>(stretch.seen.size()) - LinearFilter::kFewest,
                     kColumns);
@@ -146,11 +146,11 @@ Eigen::MatrixXd ComputeErrors(const Stretch& stretch, size_t joint, bool mirrore
   return y;
 }
 
-constexpr double kPrecise_m = 0.01;  // below it errors are noise, all the same
+constexpr double kPrecise_m = 0.01;  // errors below are noise and get equal weight
 
-/// Without products.
+/// The error sums, without products.
 Sums ErrorSums(const Stretch& stretch, size_t joint, const Eigen::MatrixXd& y, double weight) {
-  const Eigen::MatrixXd lag = LeftByLagFilter(stretch, joint);
+  const Eigen::MatrixXd lag = ResidualsOfLagFilter(stretch, joint);
   Sums sums;
   sums.rows = static_cast<double>(y.rows());
   for (size_t part = 0; part < kParts; ++part) {
@@ -176,7 +176,7 @@ Sums StepSums(const Stretch& stretch, size_t joint, bool mirrored) {
   Eigen::MatrixXd x(y.rows(), FilterFeatureSize(joint));
   for (Eigen::Index r = 0; r < x.rows(); ++r) {
     const auto frame = static_cast<size_t>(r) + LinearFilter::kFewest;
-    const auto [window, steps] = SeenIn(stretch, frame);
+    const auto [window, steps] = FilterInputAt(stretch, frame);
     const double yaw_rad = stretch.pairs[frame]->placement.yaw_rad;
     x.row(r) = FilterFeature(window, steps, yaw_rad, joint, mirrored).transpose().cast<double>();
   }
@@ -193,8 +193,8 @@ Sums StepSums(const Stretch& stretch, size_t joint, bool mirrored) {
   return sums;
 }
 
-/// Influences have the same weight in all axes: these are summed. x: a frame a row, a column a
-/// regressor and axis, axis by axis; y: a column an axis; `weights`: of the frames.
+/// Influence weights are shared by all axes, so axes are summed. x: one row per frame, one column
+/// per regressor and axis, grouped by axis; y: one column per axis; `weights`: per frame.
 void AddInfluences(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y,
                    const Eigen::VectorXd& weights, size_t part, Products* influences) {
   const Eigen::Index n = x.cols() / 3;
@@ -208,7 +208,7 @@ void AddInfluences(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y,
   }
 }
 
-/// In camera space.
+/// Sums for influence weights, in camera space.
 Sums InfluenceSums(const Stretch& stretch, size_t joint) {
   Eigen::MatrixXd y = ComputeErrors(stretch, joint, false);
   std::array<Eigen::MatrixXd, LinearFilter::kOutputs> x;
@@ -216,7 +216,7 @@ Sums InfluenceSums(const Stretch& stretch, size_t joint) {
     x[output].resize(y.rows(), 3 * InfluenceFeatureSize(output));
     for (Eigen::Index r = 0; r < y.rows(); ++r) {
       const auto frame = static_cast<size_t>(r) + LinearFilter::kFewest;
-      const auto [window, steps] = SeenIn(stretch, frame);
+      const auto [window, steps] = FilterInputAt(stretch, frame);
       const auto influences = InfluenceFeature(window, steps[joint], joint, output);
       x[output].row(r) = influences.transpose().reshaped().transpose().cast<double>();
       const double yaw_rad = stretch.pairs[frame]->placement.yaw_rad;
@@ -230,8 +230,8 @@ Sums InfluenceSums(const Stretch& stretch, size_t joint) {
   sums.of.resize(2 * LinearFilter::kOutputs);
   for (size_t part = 0; part < kParts; ++part) {
     const Eigen::MatrixXd ys = Part(y, part);
-    // By the inverse of each error: what is minimised is nearer the sum of errors than of their
-    // squares, of which a few gross ones are most.
+    // Weights by the inverse error approximate a sum of absolute errors: squares would be dominated
+    // by a few gross errors.
     const Eigen::VectorXd robust =
         (ys.leftCols<3>().rowwise().norm().array() + kPrecise_m).inverse();
     const Eigen::VectorXd same = Eigen::VectorXd::Constant(ys.rows(), weight);
@@ -255,7 +255,7 @@ double UsualStep_s(const std::vector<PosturePair>& pairs) {
   return Median(std::move(steps));
 }
 
-/// All that is learned from, by folds and learned side of the joints.
+/// Accumulated training data, by fold and learned side of the joints.
 class Learner {
  public:
   Learner(const std::vector<PosturePair>& pairs, const LinearFilterOptions& options)
@@ -293,12 +293,12 @@ class Learner {
   }
 
  private:
-  /// Held-out squared errors of one joint: of position, of second differences.
+  /// Held-out squared errors of one joint: of position and of second differences.
   using Left = std::array<double, kParts>;
 
-  /// Influences learn what to make of gross errors too.
+  /// Influence weights are trained on gross errors, too.
   bool Usable(const PosturePair& pair, size_t joint) const {
-    constexpr double kGross_m = 0.3;  // another limb, perhaps
+    constexpr double kGross_m = 0.3;  // possibly another limb
     return pair.known[joint] > 0.0 &&
            (influences_ || pair.scale * pair.residual.position_m[joint].norm() < kGross_m);
   }
@@ -306,7 +306,7 @@ class Learner {
   bool Follows(const PosturePair& before, const PosturePair& now, const Posture& was,
                const Posture& is) const {
     if (before.clip != now.clip || !filter_.IsStep(now.time_s - before.time_s)) return false;
-    constexpr double kElsewhere_m = 0.2;  // in the median joint: another body, or a cut
+    constexpr double kElsewhere_m = 0.2;  // of the median joint: another body, or a cut
     JointArray<double> moved{};
     for (size_t i = 0; i < kJointCount; ++i)
       moved[i] = (is.position_m[i] - was.position_m[i]).norm();
@@ -326,42 +326,43 @@ class Learner {
     if (middle) sums += StepSums(stretch, joint, true);
   }
 
-  /// How strongly a joint's weights are held back, and what they are to be good at.
-  struct Way {
+  /// Hyperparameters of a joint: regularisation, and the weight of second differences.
+  struct Hyperparameters {
     double ridge, acceleration;
   };
 
   const Products& MeasureOf(const Sums& sums, LinearFilter::Output output) const {
     return sums.of[influences_ ? static_cast<size_t>(output) : 0];
   }
-  /// The columns of an output.
+  /// The columns of one output.
   Eigen::MatrixXd XyOf(const Products& of, size_t part, LinearFilter::Output output) const {
     if (influences_) return of.xy[part];
     return of.xy[part].middleCols<3>(3 * static_cast<Eigen::Index>(output));
   }
 
-  Eigen::MatrixXd Solve(const Sums& sums, const Way& way, LinearFilter::Output output) const {
+  Eigen::MatrixXd Solve(const Sums& sums, const Hyperparameters& parameters,
+                        LinearFilter::Output output) const {
     const Products& of =
         influences_ ? sums.of[LinearFilter::kOutputs + static_cast<size_t>(output)] : sums.of[0];
-    Eigen::MatrixXd a = of.xx[0] + way.acceleration * of.xx[1];
-    a.diagonal().array() += way.ridge * a.diagonal().mean() + 1e-12;
-    return a.llt().solve(XyOf(of, 0, output) + way.acceleration * XyOf(of, 1, output));
+    Eigen::MatrixXd a = of.xx[0] + parameters.acceleration * of.xx[1];
+    a.diagonal().array() += parameters.ridge * a.diagonal().mean() + 1e-12;
+    return a.llt().solve(XyOf(of, 0, output) + parameters.acceleration * XyOf(of, 1, output));
   }
 
-  /// Of a joint, by folds: what is left out, and all the rest.
-  struct Halves {
+  /// A joint's held-out and training sums, by fold.
+  struct FoldSums {
     const Sums* held;
     Sums rest;
   };
 
-  std::optional<Left> LeftOut(const std::vector<Halves>& folds, const Way& way,
+  std::optional<Left> LeftOut(const std::vector<FoldSums>& folds, const Hyperparameters& parameters,
                               LinearFilter::Output output) const {
     Left left{};
     if (folds.size() < 2) return std::nullopt;
     for (const auto& [held, rest] : folds) {
       const Products& of = MeasureOf(*held, output);
       if (rest.rows < 10.0 * static_cast<double>(of.xx[0].rows())) return std::nullopt;
-      const Eigen::MatrixXd w = Solve(rest, way, output);
+      const Eigen::MatrixXd w = Solve(rest, parameters, output);
       for (size_t part = 0; part < kParts; ++part) {
         left[part] += held->yy[part][output] - 2.0 * w.cwiseProduct(XyOf(of, part, output)).sum() +
                       w.cwiseProduct(of.xx[part] * w).sum();
@@ -370,30 +371,30 @@ class Learner {
     return left;
   }
 
-  /// What is to be least on what is left out.
-  double Badness(const Left& left) const {
+  /// The held-out objective.
+  double Objective(const Left& left) const {
     const auto log = [](double square) { return std::log(std::max(square, 0.0) + 1e-12); };
     return options_.position_share * log(left[0]) + log(left[1]);
   }
 
-  /// The way that is least bad on what is left out; none where LagFilter does better.
+  /// Chooses the hyperparameters with the smallest held-out objective; none if LagFilter is better.
   void Choose(LinearFilter::Output output, size_t side) {
     Sums whole;
     for (const auto& of_fold : sums_) whole += of_fold[side];
-    std::vector<Halves> folds;
+    std::vector<FoldSums> folds;
     for (const auto& of_fold : sums_) {
       if (of_fold[side].rows > 0.0) folds.push_back({&of_fold[side], whole - of_fold[side]});
     }
-    double least = Badness({whole.lag[0][output], whole.lag[1][output]});
-    std::optional<Way> best;
+    double least = Objective({whole.lag[0][output], whole.lag[1][output]});
+    std::optional<Hyperparameters> best;
     for (const double ridge : options_.ridges) {
       for (const double acceleration : options_.accelerations) {
-        const Way way{ridge, acceleration};
-        const auto left = LeftOut(folds, way, output);
+        const Hyperparameters parameters{ridge, acceleration};
+        const auto left = LeftOut(folds, parameters, output);
         if (!left) return;
-        if (Badness(*left) >= least) continue;
-        least = Badness(*left);
-        best = way;
+        if (Objective(*left) >= least) continue;
+        least = Objective(*left);
+        best = parameters;
       }
     }
     if (!best) return;
@@ -402,11 +403,11 @@ class Learner {
   }
 
   LinearFilterOptions options_;
-  bool influences_;  // of one person: what is to hold for others must have few weights
+  bool influences_;  // of one person: few weights generalise better
   LinearFilter filter_;
   static constexpr int kFolds = 7;
   std::array<JointArray<Sums>, kFolds> sums_;
-  JointArray<Sums> between_;  // of pairs in no fold
+  JointArray<Sums> between_;  // pairs in no fold
 };
 
 }  // namespace
@@ -414,7 +415,7 @@ class Learner {
 LinearFilter LinearFilter::Learn(const std::vector<PosturePair>& pairs,
                                  const LinearFilterOptions& options) {
   if (!CanLearnOf(UsualStep_s(pairs))) return {};
-  // A frame that was handed out twice brings nothing new, and would cut the way it is on in two.
+  // Duplicate frames add nothing, and would split a track in two.
   const auto repeats = [](const PosturePair& before, const PosturePair& now) {
     return before.clip == now.clip && before.time_s == now.time_s;
   };

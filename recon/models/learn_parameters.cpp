@@ -11,8 +11,8 @@
 namespace ossa::recon {
 namespace {
 
-// Logarithms of what offsets of a body can be: signal 1 mm to 1 m, width 3 cm to 10 m, noise 1 mm
-// to 20 cm. Outside, the likelihood is flat and the matrix singular.
+// Logarithms of plausible bounds: signal 1 mm to 1 m, width 3 cm to 10 m, noise 1 mm to 20 cm.
+// Outside, the likelihood is flat and the matrix singular.
 constexpr std::array<double, 4> kLowest = {-13.8, -13.8, -4.6, 3.2};
 constexpr std::array<double, 4> kHighest = {0.0, 0.0, 7.0, 13.8};
 
@@ -31,7 +31,7 @@ class Likelihood : public ceres::FirstOrderFunction {
 
   bool Evaluate(const double* logs, double* cost, double* gradient) const override {
     *cost = NegativeLogLikelihood(FromLogarithms(logs), inputs_, outputs_, gradient);
-    // A quadratic wall keeps the search inside the bounds.
+    // A quadratic penalty keeps the search inside the bounds.
     for (size_t i = 0; i < 4; ++i) {
       const double out = logs[i] - std::clamp(logs[i], kLowest[i], kHighest[i]);
       *cost += 100.0 * out * out;
@@ -55,7 +55,7 @@ GaussianProcessParameters LearnParameters(const Eigen::MatrixXd& inputs,
   const ceres::GradientProblem problem(new Likelihood(inputs, outputs));
   ceres::GradientProblemSolver::Options options;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 25;  // the likelihood is flat near its top: a percent is enough
+  options.max_num_iterations = 25;  // a per cent of accuracy is enough: the maximum is flat
   options.function_tolerance = 1e-4;
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(options, problem, logs.data(), &summary);

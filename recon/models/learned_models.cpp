@@ -18,7 +18,7 @@ constexpr ContainerFormat kLearnedFormat = {
 
 constexpr uint32_t kOldestVersion = 2, kVersionOfSteps = 3, kVersionOfInfluences = 4;
 
-// More than any honest file holds; a damaged count is refused before it costs memory or time.
+// More than any valid file holds; damaged counts are refused before they cost memory or time.
 constexpr uint64_t kMostModels = LearnOptions::kMostRegions;
 constexpr uint64_t kMostRows = LearnOptions::kMostSamples;
 
@@ -44,7 +44,7 @@ void PutProcess(PayloadWriter& out, const GaussianProcess& model) {
   PutMatrix(out, model.outputs().cast<float>());
 }
 
-/// The factor is not in the file: it follows from the samples.
+/// The factor is not in the file; it is recomputed from the samples.
 GaussianProcess GetProcess(PayloadReader& in, Eigen::Index features) {
   const auto p = in.Get<GaussianProcessParameters>("kernel");
   for (const double v : {p.theta0, p.theta1, p.w, p.beta}) {
@@ -110,7 +110,7 @@ PoseCorrection GetCorrection(PayloadReader& in) {
   return c;
 }
 
-/// Of joints of the left and the middle; an empty matrix where nothing was learned.
+/// Weights of left and midline joints; an empty matrix if nothing was learned.
 void PutFilter(PayloadWriter& out, const LinearFilter& filter) {
   out.Put(filter.step_s);
   for (const auto& of_output : filter.weights) {
@@ -160,7 +160,7 @@ WindowCorrection GetWindow(PayloadReader& in) {
   return window;
 }
 
-/// The oldest that holds it: what older programs read stays what they read.
+/// The oldest version that can hold the models, so that older programs can read them.
 uint32_t VersionFor(const LearnedModels& models) {
   if (!models.window.empty()) return LearnedModels::kVersion;
   return models.filter.HasInfluences() ? kVersionOfInfluences : kVersionOfSteps;

@@ -7,8 +7,8 @@
 namespace ossa::recon {
 namespace {
 
-// Jitter of a good sensor, gross errors of a bad one. On ITOP's estimates 3, 10 and 30 cm, or 4 to
-// 32 cm, do no better on the half not learned of.
+// Scales of a good sensor's jitter and of a bad one's gross errors. On ITOP's estimates 3, 10 and
+// 30 cm, or 4 to 32 cm, are no better on the held-out half.
 constexpr std::array<double, 2> kReaches_m = {0.05, 0.15};
 constexpr Eigen::Index kWays = 1 + Eigen::Index{kReaches_m.size()};
 
@@ -103,7 +103,7 @@ std::array<Eigen::Vector3d, LinearFilter::kOutputs> LinearFilter::Estimate(
   const bool mirrored = LearnedSideOf(joint) != joint;
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
   std::array<Eigen::Vector3d, kOutputs> estimates;
-  Eigen::VectorXf feature;  // of both outputs
+  Eigen::VectorXf feature;  // features of both outputs
   for (const Output output : {kNow, kBefore}) {
     const Eigen::MatrixXf& known = WeightsOf(output, joint);
     Eigen::Vector3d& estimate = estimates[output];

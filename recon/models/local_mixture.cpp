@@ -74,8 +74,9 @@ LocalMixture LocalMixture::Learn(const Eigen::MatrixXd& inputs, const Eigen::Mat
       if (region[i] == q) rows.push_back(static_cast<int>(i));
     }
     if (rows.empty()) continue;
-    // Departure: the paper learns from and budgets all samples of a region. Both are cubic: the
-    // parameters come of S of them, and four times the budget is plenty to choose from.
+    // Departure: the paper uses all samples of a region for learning and budgeting. Both have cubic
+    // cost: the parameters are learned from S samples, and budgeting starts from four times the
+    // budget.
     rows = EveryNth(rows, static_cast<size_t>(4 * options.samples));
     const std::vector<int> some = EveryNth(rows, static_cast<size_t>(options.samples));
     const auto parameters = LearnParameters(Rows(inputs, some), Rows(outputs, some), start);
@@ -108,7 +109,8 @@ GaussianPrediction LocalMixture::Predict(const Eigen::VectorXd& input, int nearb
   GaussianPrediction out;
   double total = 0.0;
   for (size_t k = 0; k < l; ++k) {
-    // Eq. 12; relative to the most similar, so that far from all of them nothing is 0 / 0.
+    // Eq. 12, relative to the most similar model, so that weights far from all models are not 0 /
+    // 0.
     const double weight = std::exp(similar[0].first - similar[k].first);
     if (weight < 1e-4) break;
     const GaussianPrediction local = models_[similar[k].second].Predict(input);

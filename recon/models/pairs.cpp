@@ -9,9 +9,10 @@ namespace {
 // Constants: chosen by hand, where nothing else is said.
 
 std::vector<int> SplitIntoBlocks(size_t count, int most) {
-  // Few and long: half a minute of a recording of two minutes, in which somebody else may come.
+  // Few and long: half a minute each in a recording of two minutes, in which another person may
+  // appear.
   constexpr int kBlocks = 4;
-  constexpr double kGap = 0.05;  // of a block, at either end: seconds, not frames
+  constexpr double kGap = 0.05;  // share of a block, at either end: amounts to seconds
   const auto blocks = static_cast<size_t>(std::min(kBlocks, most));
   std::vector<int> fold;
   for (size_t i = 0; i < count; ++i) {

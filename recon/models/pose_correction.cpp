@@ -33,9 +33,9 @@ constexpr std::array<std::pair<int, int>, 15> kLines = {{{0, 1},
                                                          {2, 8}}};
 // Constants: chosen on people of UI-PRMD left out, where it says so, else by hand.
 
-constexpr double kDirectionScale = 0.3;  // a turned bone moves its end by about as many metres
-// A bone seen 10 cm too short tells as much as one turned by 60 degrees. Best of 1, 3, 5 on people
-// left out (UI-PRMD).
+constexpr double kDirectionScale = 0.3;  // the end of a rotated bone moves by about as many metres
+// A bone 10 cm too short weighs as much as one rotated by 60 degrees. Best of 1, 3, 5 on held-out
+// people (UI-PRMD).
 constexpr double kLengthScale = 3.0;
 
 Eigen::MatrixXf Kernel(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b, double width) {
@@ -45,7 +45,7 @@ Eigen::MatrixXf Kernel(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b, doubl
   return (d.array().max(0.0F) * static_cast<float>(-0.5 / (width * width))).exp().matrix();
 }
 
-/// Joints whose truth is known in exactly the same pairs share one set of normal equations.
+/// Groups joints with known truth in the same pairs: they share normal equations.
 std::map<std::vector<bool>, std::vector<size_t>> JointsByMask(
     const std::vector<PosturePair>& pairs) {
   std::map<std::vector<bool>, std::vector<size_t>> groups;
@@ -78,7 +78,7 @@ Eigen::VectorXf CorrectionFeature(const Posture& scaled) {
 
 namespace {
 
-/// Kernel values with the centres, then the feature itself: samples x (centres + features).
+/// Kernel values at the centres, followed by the feature itself: samples x (centres + features).
 Eigen::MatrixXf Regressors(const Eigen::MatrixXf& centres, const Eigen::MatrixXf& x, double width) {
   Eigen::MatrixXf out(x.cols(), centres.cols() + x.rows());
   out.leftCols(centres.cols()) = Kernel(x, centres, width);
@@ -88,7 +88,7 @@ Eigen::MatrixXf Regressors(const Eigen::MatrixXf& centres, const Eigen::MatrixXf
 
 }  // namespace
 
-/// What is learned from, made ready for every choice of width and noise.
+/// Training data, prepared for every choice of width and noise.
 struct PoseCorrection::Samples {
   Eigen::MatrixXf features;  // features x n
   Eigen::MatrixXf residual;  // n x 60
@@ -98,7 +98,7 @@ struct PoseCorrection::Samples {
 
 namespace {
 
-/// Means of K-means regions with ten members or more: postures that nobody held.
+/// Means of K-means clusters with ten members or more: nobody's individual postures.
 Eigen::MatrixXf Centres(const Eigen::MatrixXf& features, int count, uint64_t seed) {
   constexpr Eigen::Index kFewestMembers = 10, kMostRows = 12000;
   constexpr int kRounds = 8;
@@ -164,11 +164,11 @@ struct LinearFit {
   Eigen::MatrixXf weights;  // regressors x outputs
 };
 
-/// Least squares with a prior, then again with every sample weighed by the inverse of its error.
+/// Regularised least squares, repeated with samples weighted by the inverse of their error.
 /// `prior`: of the weights, times the ratio of noise to signal.
 LinearFit RobustFit(const Eigen::MatrixXf& k, const Eigen::MatrixXf& targets,
                     const Eigen::MatrixXd& prior, int reweighings) {
-  constexpr float kPrecise_m = 0.03F;  // below it errors are noise, all the same
+  constexpr float kPrecise_m = 0.03F;  // errors below are noise and get equal weight
   Eigen::VectorXf sample = Eigen::VectorXf::Ones(k.rows());
   LinearFit fit;
   for (int round = 0; round <= reweighings; ++round) {
@@ -210,8 +210,8 @@ PoseCorrection::Samples PoseCorrection::MakeSamples(std::vector<PosturePair> pai
   return s;
 }
 
-// Subset of regressors (Rasmussen & Williams 2006, eq. 8.13) beside a linear model: the prior of
-// the kernel's weights is the centres' own kernel matrix, that of the linear ones is unit.
+// Subset of regressors (Rasmussen & Williams 2006, eq. 8.13) plus a linear model: the prior of the
+// kernel weights is the centres' own kernel matrix, that of the linear ones is the identity.
 PoseCorrection PoseCorrection::Fit(const Samples& samples, double width, double noise_ratio,
                                    const PoseCorrectionOptions& options) {
   PoseCorrection out;
@@ -257,7 +257,7 @@ PoseCorrection::HeldOut PoseCorrection::LeaveOut(const std::vector<PosturePair>&
   }
   HeldOut out;
   out.gains = ComputeGains(pairs, fold, offsets);
-  // What holds from block to block of one person may be the person's own: half of it is believed.
+  // Errors common to blocks of one person may be specific to the person: half the gain.
   constexpr double kOfOnePerson = 0.5;
   if (OfOnePerson(pairs)) {
     for (double& gain : out.gains) gain *= kOfOnePerson;
@@ -270,12 +270,12 @@ PoseCorrection PoseCorrection::Learn(const std::vector<PosturePair>& all_pairs,
                                      const PoseCorrectionOptions& options) {
   const std::vector<PosturePair> pairs =
       Thinned(WithoutGrossErrors(all_pairs, options.gross_m), options.most_pairs);
-  constexpr size_t kForChoice = 2000;  // a few numbers: that many pairs fix them
+  constexpr size_t kForChoice = 2000;  // enough pairs to choose a few numbers
   const std::vector<PosturePair> some = Thinned(pairs, kForChoice);
   PoseCorrectionOptions quick = options;
   quick.centres = std::min(options.centres, 100);
   const std::vector<int> fold = AssignFolds(some, options.folds);
-  std::map<int, Samples> rest;  // of each fold left out
+  std::map<int, Samples> rest;  // training data of each fold
   for (int held = 0; held < options.folds; ++held) {
     std::vector<PosturePair> others;
     for (size_t i = 0; i < some.size(); ++i) {

@@ -24,18 +24,18 @@ constexpr ContainerFormat kPriorFormat = {
 
 constexpr uint32_t kVersionOfNetwork = 2;
 
-// A mode is neither forgotten within a frame nor kept for ever.
+// Bounds of a mode's correlation time.
 constexpr double kShortest_s = 0.02, kLongest_s = 1000.0;
 
-/// MomentSums over all frames and their mirror images; what is about the mean is made of them
-/// later, so that no motion needs to be held in memory.
+/// Sums for first and second moments over all frames and their mirror images. Central moments are
+/// computed later, so motions need not be held in memory.
 struct MomentSums {
   double weight = 0.0, lagged_weight = 0.0;
   uint64_t frames = 0;
-  BoneVector first = BoneVector::Zero();          // of b(t)
-  BoneMatrix second = BoneMatrix::Zero();         // of b(t) b(t)'
-  BoneVector lagged_first = BoneVector::Zero();   // of (b(t) + b(t + lag)) / 2
-  BoneMatrix lagged_second = BoneMatrix::Zero();  // of the symmetric part of b(t) b(t + lag)'
+  BoneVector first = BoneVector::Zero();          // sum of b(t)
+  BoneMatrix second = BoneMatrix::Zero();         // sum of b(t) b(t)'
+  BoneVector lagged_first = BoneVector::Zero();   // sum of (b(t) + b(t + lag)) / 2
+  BoneMatrix lagged_second = BoneMatrix::Zero();  // sum of the symmetric part of b(t) b(t + lag)'
 };
 
 void Add(const std::vector<BoneVector>& run, size_t lag, double weight, MomentSums& sums) {
@@ -55,7 +55,7 @@ void Add(const std::vector<BoneVector>& run, size_t lag, double weight, MomentSu
   sums.lagged_second += 0.5 * weight * (product + product.transpose());
 }
 
-/// Left and right exchanged: x changes its sign, bones their places.
+/// The reflection: negates x and exchanges left and right bones.
 BoneMatrix Mirror() {
   BoneMatrix mirror = BoneMatrix::Zero();
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -68,7 +68,7 @@ BoneMatrix Mirror() {
 }
 
 void CheckEnough(const MomentSums& sums, double lag_s) {
-  constexpr uint64_t kFewest = 100;  // a hundred numbers' mean and spread tell something
+  constexpr uint64_t kFewest = 100;  // minimum sample for mean and variance
   if (sums.frames < kFewest) {
     throw InputError(
         fmt::format("posture prior: expected motions of at least {} finite postures, found {}",
@@ -80,7 +80,7 @@ void CheckEnough(const MomentSums& sums, double lag_s) {
   }
 }
 
-/// Of all bones, left and right alike, about their mean.
+/// Central moments of all bones, symmetric in left and right.
 struct Moments {
   BoneVector mean = BoneVector::Zero();
   BoneMatrix covariance = BoneMatrix::Zero(), lagged = BoneMatrix::Zero();
@@ -103,7 +103,8 @@ Moments ComputeMoments(const MomentSums& sums) {
   return out;
 }
 
-/// Eigenvectors by falling eigenvalue, each with its largest entry positive: the same every time.
+/// Eigenvectors in descending order of eigenvalue, each with its largest entry positive, so that
+/// the result is deterministic.
 template <typename Matrix>
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> SortedEigen(const Matrix& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
@@ -186,7 +187,7 @@ PosturePrior PosturePrior::Learn(const std::vector<PriorClip>& clips,
   out.frames = sums.frames;
   out.mean_m = moments.mean;
   const auto [variance, axes] = SortedEigen(moments.covariance);
-  // What hardly ever moves (0.1 mm) is no mode, lest its correlation be rounding.
+  // Directions with less motion (0.1 mm) are not modes: their correlation would be rounding.
   constexpr double kLeast_m2 = 1e-8;
   Eigen::Index modes = 0;
   while (modes < options.modes && variance[modes] > kLeast_m2) ++modes;
@@ -221,7 +222,7 @@ void PosturePrior::Save(const std::filesystem::path& path) const {
   }
   ContainerFormat format = kPriorFormat;
   if (network.empty()) {
-    format.version = kVersionOfNetwork - 1;  // what older programs read
+    format.version = kVersionOfNetwork - 1;  // so that older programs can read it
   } else {
     out.Put(static_cast<uint32_t>(network.layers.front().bias.size()));
     PutPerceptron(out, network);
@@ -249,7 +250,7 @@ Eigen::MatrixXd GetColumn(PayloadReader& in, std::string_view field, size_t coun
       .cast<double>();
 }
 
-/// Of each mode, seconds.
+/// Correlation time of each mode, seconds.
 Eigen::VectorXd GetCorrelationTimes(PayloadReader& in) {
   const auto times_s = in.GetVector<float>("correlation times");
   if (times_s.empty() || times_s.size() > kBoneDims) {

@@ -9,15 +9,15 @@
 namespace ossa::recon {
 namespace {
 
-/// A joint's place as a linear function of the modes: place = at_m + of_modes * u, and what of its
-/// variance no mode explains.
+/// A joint's position as a linear function of the modes u: position = at_m + of_modes * u, plus a
+/// residual variance.
 struct JointModel {
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 3, Eigen::Dynamic> of_modes;
   Eigen::Vector3d residual_m2 = Eigen::Vector3d::Zero();
 };
 
-/// Every bone as long as the person's; parents before children.
+/// Scales each bone to the person's length; parents before children.
 JointArray<JointModel> MakeJointModels(const PosturePrior& prior, const BoneLengths& lengths_m) {
   JointArray<JointModel> models;
   models[0].of_modes.setZero(3, prior.modes_m.cols());
@@ -36,7 +36,7 @@ bool IsSeen(const PriorObservation& observation, size_t joint) {
   return observation.sd_m[joint] > 0.0 && observation.seen.position_m[joint].allFinite();
 }
 
-/// Of a person's bones but the root's, > 0.
+/// Sum of a person's bone lengths except the root's, > 0.
 double Sum(const BoneLengths& lengths_m) {
   return std::accumulate(lengths_m.begin() + 1, lengths_m.end(), 0.0);
 }
@@ -44,7 +44,7 @@ double Sum(const BoneLengths& lengths_m) {
 }  // namespace
 
 double BaseSigma_m(double share_of_guesses) {
-  // Of 0, 0.2, 0.5 and 1 the best two on ten scenarios of Plantard 2016 with motion of validation
+  // Best two of 0, 0.2, 0.5 and 1 on ten scenarios of Plantard 2016 with motion of validation
   // subjects.
   constexpr double kAmongGuesses_m = 0.5;
   return 0.02 + kAmongGuesses_m * share_of_guesses;
@@ -63,7 +63,7 @@ void PriorFilter::Reset() {
   covariance_ = Eigen::MatrixXd::Identity(modes + 3, modes + 3);
 }
 
-/// Each mode forgets at its own pace; of the root's place nothing is carried over.
+/// Each mode decays with its own time constant; the root's position is not propagated.
 void PriorFilter::Predict(double dt_s, double root_sd_m) {
   const Eigen::Index modes = prior_->correlation_time_s.size();
   Eigen::VectorXd kept = Eigen::VectorXd::Zero(modes + 3);
@@ -74,7 +74,7 @@ void PriorFilter::Predict(double dt_s, double root_sd_m) {
   covariance_.diagonal().tail<3>().setConstant(root_sd_m * root_sd_m);
 }
 
-/// Fades: where guesses come and go the posture must not jump.
+/// Fades in and out: the posture must not jump when guesses appear or disappear.
 double PriorFilter::NetworkShare(double dt_s) {
   constexpr double kFade_s = 0.25;  // by hand
   const double wanted = last_.guesses ? 0.0 : 1.0;

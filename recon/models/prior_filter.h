@@ -7,39 +7,39 @@
 
 namespace ossa::recon {
 
-/// What is seen of one person at one time, normalised, of the person's own size.
+/// An observation of one person, normalised, at the person's own size.
 struct PriorObservation {
-  Posture seen;             // joints from where the root is taken to be
-  JointWeights sd_m{};      // of each joint but the root, metres; 0: not seen
-  double root_sd_m = 0;     // of where the root is taken to be
-  bool guesses = false;     // some of it is a sensor's guess at what it does not see
-  BoneLengths lengths_m{};  // of the person, > 0
+  Posture seen;             // joints relative to the assumed root
+  JointWeights sd_m{};      // standard deviation of each joint except the root, metres; 0: not seen
+  double root_sd_m = 0;     // standard deviation of the assumed root
+  bool guesses = false;     // includes a sensor's guesses of unseen joints
+  BoneLengths lengths_m{};  // the person's, > 0
 };
 
-/// Standard deviation of a joint that is fully trusted, metres; of one trusted by half it is twice
-/// that. A person of whom the sensor only guesses a share of the joints is seen badly as a whole.
+/// Standard deviation of a fully trusted joint, metres; at half trust it is twice that. It grows
+/// with the share of joints that the sensor only guesses.
 double BaseSigma_m(double share_of_guesses);
 
-/// The posture that is to be expected of what was seen up to now (Kalman filter of a PosturePrior,
-/// exact for it). What is hidden moves with what is seen, as far as it usually does; what is not
-/// seen for long becomes what is usual. State: the modes, then the error of the root's place.
-/// The prior's network corrects what it says, unless a sensor guesses: its guesses are wrong
-/// together, and the network learned of joints that are seen or are not.
+/// The expected posture given all observations so far: the Kalman filter of a PosturePrior, for
+/// which it is exact. Hidden joints move with visible ones as far as they are correlated; joints
+/// not seen for long approach the mean. State: the modes, then the root's position error. The
+/// prior's network corrects the result, unless a sensor guesses: errors of guesses are correlated,
+/// and the network was trained on joints that are either seen or not.
 class PriorFilter {
  public:
   explicit PriorFilter(std::shared_ptr<const PosturePrior> prior);
-  /// Nothing is known but the prior.
+  /// Resets to the prior.
   void Reset();
-  /// `dt_s` (>= 0) later, seeing that: normalised, bones of the lengths given, the root where it is
-  /// expected to be.
+  /// Predicts `dt_s` (>= 0) ahead and updates. The result is normalised, with the given bone
+  /// lengths and the root at its expected position.
   Posture Step(double dt_s, const PriorObservation& observation);
-  /// Standard deviation of a joint's place relative to the root, all axes together, metres, on the
-  /// standard body.
+  /// Standard deviation of a joint relative to the root, all axes together, metres, at the standard
+  /// size.
   double Uncertainty_m(Joint joint) const;
-  /// The bones that the modes of the last step say, before the prior's network corrects them;
-  /// normalised, the standard body.
+  /// The bones given by the modes of the last step, before the prior's network corrects them;
+  /// normalised, at the standard size.
   BoneVector Bones_m() const;
-  /// What the prior's network reads, or would read, of the last step.
+  /// The input of the prior's network in the last step.
   PriorInput Input() const;
 
  private:
@@ -48,7 +48,7 @@ class PriorFilter {
 
   std::shared_ptr<const PosturePrior> prior_;
   PriorObservation last_;
-  std::optional<double> network_share_;  // of the network's correction that is made
+  std::optional<double> network_share_;  // applied share of the network's correction
   Eigen::VectorXd mean_;
   Eigen::MatrixXd covariance_;
 };

@@ -13,11 +13,11 @@
 namespace ossa::recon {
 namespace {
 
-constexpr float kStep_m = 0.1F;   // an output of 1: about the largest systematic error; by hand
-constexpr float kSoft = 0.1F;     // of kStep_m: a centimetre, below which errors are noise; by hand
-constexpr double kKept_s = 0.75;  // the longest lag and some frames more; by hand
+constexpr float kStep_m = 0.1F;   // an output of 1: about the largest error; by hand
+constexpr float kSoft = 0.1F;     // of kStep_m: errors below a centimetre are noise; by hand
+constexpr double kKept_s = 0.75;  // the longest lag and a margin; by hand
 
-/// A network learns from whole recordings: pairs of a clip, windows cut from those before.
+/// Training examples from whole recordings: windows are cut from the preceding pairs of a clip.
 PerceptronExamples MakeExamples(const std::vector<PosturePair>& pairs, size_t most) {
   const size_t count = std::min(most, pairs.size());
   PerceptronExamples examples;
@@ -64,7 +64,7 @@ Perceptron Train(const std::vector<PosturePair>& pairs, size_t most,
   return TrainPerceptron(&examples, PointDistanceGradient(kSoft), training);
 }
 
-/// Offsets of every pair, in their order.
+/// Offsets of all pairs, in order.
 std::vector<Posture> UnpackOffsets(const WindowCorrection& correction,
                                    const std::vector<PosturePair>& pairs) {
   std::vector<Posture> offsets;
@@ -78,7 +78,7 @@ std::vector<Posture> UnpackOffsets(const WindowCorrection& correction,
   return offsets;
 }
 
-/// By people left out, in a few folds.
+/// Gains by cross-validation over people.
 JointWeights FindGains(const std::vector<PosturePair>& pairs,
                        const WindowCorrectionOptions& options) {
   const std::vector<int> fold = AssignFolds(pairs, options.folds);
@@ -115,7 +115,7 @@ WindowCorrection WindowCorrection::Learn(const std::vector<PosturePair>& all_pai
                                          const WindowCorrectionOptions& options) {
   const std::vector<PosturePair> pairs = WithoutGrossErrors(all_pairs, options.gross_m);
   WindowCorrection out;
-  // Fewer teach nothing that a linear term does not know.
+  // With fewer a network is no better than a linear term.
   constexpr size_t kFewest = 1000;  // pairs; by hand
   if (!options.enabled || pairs.size() < kFewest || OfOnePerson(pairs)) return out;
   out.gains = FindGains(pairs, options);

@@ -25,20 +25,20 @@ struct AcclaimBone {
 struct AcclaimSkeleton {
   std::string source;
   std::vector<AcclaimBone> bones;
-  double metres_per_unit = 0.0254;  // file lengths times `length` of :units are inches
+  double metres_per_unit = 0.0254;  // file lengths divided by the `length` of :units are inches
   bool degrees = true;
   int BoneNamed(std::string_view name) const;  // -1: none
 };
 
 AcclaimSkeleton ParseAsf(std::string text, const std::string& source);
 
-/// The motion of an .amc on its skeleton, ready to be retargeted. AMC has no frame time: CMU and
-/// HDM05 publish at 120 Hz. Limits in the ASF are not applied: recorded motion exceeds them.
+/// The motion of an .amc on its skeleton, for retargeting. AMC has no frame time: CMU and HDM05
+/// publish at 120 Hz. Joint limits in the ASF are ignored: recorded motion exceeds them.
 SourceMotion ParseAmc(std::string text, const std::string& source,
                       std::shared_ptr<const AcclaimSkeleton> skeleton, double frame_s);
 
-/// The ASF of an AMC: the only one beside it, or the one whose name the AMC's begins with
-/// (longest).
+/// The ASF of an AMC: the only one in its folder, or the one whose name is the longest prefix of
+/// the AMC's.
 std::filesystem::path AsfBeside(const std::filesystem::path& amc);
 
 }  // namespace ossa::recon

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Mean angle between a bone and the source's: limbs agree to rounding, trunks of rigs lean up to
-/// 15 degrees otherwise, and a body on its side is 90 degrees away.
+/// Largest mean angle between a bone and the source's: limbs agree to rounding, trunks of other
+/// rigs lean by up to 15 degrees, and a body on its side is off by 90 degrees.
 constexpr double kMostApart_rad = 35.0 * kDegree;
 
 Vector3d ComputeMiddle(const std::vector<Vector3d>& places, const std::array<int, 2>& joints) {

@@ -9,21 +9,22 @@
 
 namespace ossa::recon {
 
-/// Whether what is retargeted stands as the source does: the angles between bones of both.
+/// Checks that a retargeted motion agrees with its source, by the angles between corresponding
+/// bones.
 class AgreementCheck {
  public:
   explicit AgreementCheck(const SourceBones& bones);
 
-  /// A frame: places of the source's joints in our axes, any unit, and the standard body's.
+  /// Adds a frame: positions of the source's joints in our axes, any unit, and the standard body's.
   void Add(const std::vector<Eigen::Vector3d>& source, const Posture& ours);
 
-  /// Throws InputError that names the bone that agrees least, when it hardly does.
+  /// Throws InputError that names the worst bone if the motions disagree.
   void Require(const std::string& source) const;
 
  private:
   struct Pair {
     std::string name;
-    std::array<int, 2> from, to;  // joints of the source, whose middle is meant
+    std::array<int, 2> from, to;  // joints of the source; their midpoint is used
     std::array<Joint, 2> our_from, our_to;
     double sum_rad = 0.0;
   };

@@ -10,10 +10,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The numbers of every frame, one after another for all bones in skeleton order.
+/// The values of all frames, concatenated for all bones in skeleton order.
 struct AmcData {
   std::shared_ptr<const AcclaimSkeleton> skeleton;
-  std::vector<size_t> first;  // of each bone in a frame
+  std::vector<size_t> first;  // offset of each bone's values in a frame
   size_t per_frame = 0;
   bool degrees = true;
   std::vector<double> values;
@@ -54,7 +54,7 @@ class AmcParser {
     return line;
   }
 
-  /// Lines ":..." before the first frame; the angle unit here overrules the skeleton's.
+  /// Reads the ":..." lines before the first frame; an angle unit here overrides the skeleton's.
   std::vector<std::string_view> ReadHeader() {
     auto line = Next();
     for (; !line.empty() && line.front().starts_with(':'); line = Next()) {
@@ -69,11 +69,11 @@ class AmcParser {
     return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
   }
 
-  /// Bones a frame leaves out stay as they were. Returns the line after the frame.
+  /// Bones missing in a frame keep their values. Returns the line after the frame.
   std::vector<std::string_view> ReadFrame() {
     const size_t begin = data_.values.size();
-    // A bound by hand: two hours of CMU's 62 at 120 Hz; a frame of a few bytes may have thousands
-    // that stay.
+    // A bound by hand: two hours of CMU's 62 values at 120 Hz. A frame of a few bytes may repeat
+    // thousands of values.
     constexpr size_t kMostValues = size_t{1} << 26;
     if (begin + data_.per_frame > kMostValues) {
       throw InputError(scan_.source() + ": expected at most " + std::to_string(kMostValues) +

@@ -76,7 +76,7 @@ class AsfParser {
         Need(2, "length SCALE");
         const double scale = scan_.ToNumber(line_[1], "the length scale");
         if (scale <= 0.0) scan_.Fail("a length scale above 0", line_[1]);
-        // CMU's convention: lengths are inches times `length` (0.45).
+        // CMU's convention: file lengths are inches times `length` (0.45).
         skeleton_.metres_per_unit = kMetresPerInch / scale;
       } else if (key == "angle") {
         Need(2, "angle deg or rad");
@@ -134,7 +134,7 @@ class AsfParser {
       } else if (key == "orientation") {
         orientation = Vector("orientation x y z");
       } else if (key == "position") {
-        Vector("position x y z");  // every frame says it anew
+        Vector("position x y z");  // every frame overrides it
       } else {
         scan_.Fail("order, axis, position or orientation", line_.front());
       }
@@ -153,7 +153,7 @@ class AsfParser {
 
   AcclaimBone ReadBone() {
     AcclaimBone bone;
-    bone.parent = -2;  // until :hierarchy says it
+    bone.parent = -2;  // set by :hierarchy
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
     double length = 0.0;
     for (;; Next()) {
@@ -205,7 +205,7 @@ class AsfParser {
     }
   }
 
-  /// Parents before children; a bone that hangs on nothing or on itself is refused.
+  /// Sorts parents before children; refuses bones without a parent and cycles.
   AcclaimSkeleton Ordered() {
     AcclaimSkeleton ordered = skeleton_;
     ordered.bones.assign(1, skeleton_.bones[0]);

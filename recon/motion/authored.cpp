@@ -1,5 +1,6 @@
 #include "recon/motion/authored.h"
 
+#include "depth/base/random.h"
 #include "recon/motion/authored_clip_internal.h"
 #include "recon/motion/authored_moves_internal.h"
 
@@ -7,7 +8,8 @@ namespace ossa::recon {
 namespace {
 
 std::vector<Action> AllActions() {
-  // New groups at the end: a clip's seed is its place, and clips once made stay as they are.
+  // Append new groups at the end: a clip's seed depends on its index, and existing clips must not
+  // change.
   std::vector<Action> all;
   for (const auto& group : {StandingActions(), WalkingActions(), HandActions(), SportActions(),
                             SeatedActions(), ExerciseActions()}) {
@@ -16,12 +18,9 @@ std::vector<Action> AllActions() {
   return all;
 }
 
-/// One well-mixed seed per clip (SplitMix64), so that clips do not depend on one another.
+/// One well-mixed seed per clip (SplitMix64), so that clips are independent of one another.
 uint64_t ClipSeed(uint64_t seed, uint64_t action, uint64_t variation) {
-  uint64_t z = seed + 0x9E3779B97F4A7C15u * (1 + action * 1000003u + variation);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
+  return Random::BitsAt(seed, action * 1000003u + variation);
 }
 
 }  // namespace

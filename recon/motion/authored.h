@@ -12,11 +12,11 @@ namespace ossa::recon {
 struct AuthoredOptions {
   uint64_t seed = 1;
   double frame_s = 1.0 / 30.0;
-  int variations = 12;  // clips per action, each another mover
+  int variations = 12;  // clips per action, each with another performer style
 };
 
-/// ossa's own clips: key postures put down by hand, not taken from any recording, played with
-/// balance, foot contact and inverse kinematics in movers of differing style. Named
+/// ossa's own clips: key postures written by hand, not taken from any recording, animated with
+/// balance, foot contact and inverse kinematics in varying performer styles. Named
 /// "authored/ACTION/N". Same options: same bytes.
 std::vector<MotionClip> AuthoredClips(const AuthoredOptions& options = {});
 

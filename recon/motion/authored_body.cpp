@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 // Constants: chosen by hand.
 
-// Nobody stands with locked knees or punches with a locked elbow.
+// People do not stand with locked knees or punch with a locked elbow.
 constexpr double kStraightest = 0.995;  // share of the limb's length
 
 const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
@@ -27,7 +27,7 @@ Quaterniond Turn(double degrees, const Vector3d& axis) {
   return Quaterniond(AngleAxisd(degrees * kDegree, axis));
 }
 
-/// The rig's bones by number, looked up once.
+/// Indices of the rig's bones, looked up once.
 struct LimbBones {
   size_t collar, arm, fore_arm, hand, finger_base, finger, thumb, hip, up_leg, leg, foot, toe;
 };
@@ -59,7 +59,7 @@ const Bones& RigBones() {
 
 double SideSign(size_t side) { return side == 0 ? 1.0 : -1.0; }
 
-/// Rotation that takes one pair of perpendicular directions (made so, the first kept) to another.
+/// Rotation from one pair of perpendicular directions to another (orthogonalised, the first kept).
 Quaterniond FrameTurn(const Vector3d& from, const Vector3d& from_hinge, const Vector3d& to,
                       const Vector3d& to_hinge) {
   const auto frame = [](const Vector3d& along, const Vector3d& hinge) {
@@ -72,7 +72,8 @@ Quaterniond FrameTurn(const Vector3d& from, const Vector3d& from_hinge, const Ve
   return Quaterniond(frame(to, to_hinge) * frame(from, from_hinge).transpose());
 }
 
-/// Directions of the two bones of a limb that spans `to_end`, the middle joint towards `pole`.
+/// Directions of the two bones of a limb that reaches `to_end`, with the middle joint towards
+/// `pole`.
 struct TwoBones {
   Vector3d upper, lower, hinge;  // hinge = upper x lower, also where the limb is straight
 };
@@ -99,25 +100,25 @@ Vector3d RestBone(size_t bone) {
   return StandardRigRest().tail_m[bone] - StandardRigRest().head_m[bone];
 }
 
-/// From shoulder to wrist in the chest's axes, arm lengths.
+/// From shoulder to wrist in the chest's axes, in arm lengths.
 Vector3d ArmDirection(const ArmKey& arm, size_t side) {
   const double f = arm.flex * kDegree, a = arm.abduct * kDegree;
   return {SideSign(side) * std::sin(a), -std::cos(a) * std::cos(f), std::cos(a) * std::sin(f)};
 }
 
-/// Where an easy elbow points: down, back and outwards; with the hand above the shoulder outwards
+/// Direction of a relaxed elbow: down, back and outwards; with the hand above the shoulder outwards
 /// and forwards.
 Vector3d ElbowPole(const Vector3d& direction, double sign, double swivel) {
   const double up = std::clamp(0.5 + 1.2 * (direction.y() - 0.35), 0.0, 1.0);
   const double raised = up * up * (3.0 - 2.0 * up);
   const Vector3d low(0.22 * sign, -0.85, -0.5), high(1.0 * sign, -0.1, 0.35);
   const Vector3d pole = (1.0 - raised) * low + raised * high;
-  // Positive lifts a hanging elbow outwards.
+  // A positive angle lifts a hanging elbow outwards.
   return Turn(sign * swivel, direction) * pole;
 }
 
-/// World place of the ankle: the foot turns about its ball with the heel up, about the heel with
-/// the toes up.
+/// World position of the ankle: the foot rotates about its ball with the heel up, about the heel
+/// with the toes up.
 Vector3d PlaceAnkle(const LegKey& leg, size_t side, double heading, Quaterniond& foot) {
   const RigRest& rest = StandardRigRest();
   const LimbBones& b = RigBones().side[side];
@@ -147,7 +148,7 @@ double LegLength() {
   return kStraightest * (RestBone(b.up_leg).norm() + RestBone(b.leg).norm());
 }
 
-/// Lowers the pelvis until the ankles of feet on the floor can be reached, softly near the limit so
+/// Lowers the pelvis until the ankles of grounded feet are reachable, smoothly near the limit so
 /// that knees do not snap straight.
 void LowerToFeet(const BodyKey& key, const Feet& feet, RigPose& pose) {
   double height = pose.root_m.y();
@@ -161,7 +162,7 @@ void LowerToFeet(const BodyKey& key, const Feet& feet, RigPose& pose) {
     const double lower = over < -kSoft_m  ? 0.0
                          : over > kSoft_m ? over
                                           : (over + kSoft_m) * (over + kSoft_m) / (4.0 * kSoft_m);
-    // A lifted foot pulls nothing down.
+    // A lifted foot does not lower the pelvis.
     const double grounded = std::clamp(1.0 - key.leg[s].foot_m.y() / 0.1, 0.0, 1.0);
     height = std::min(height, pose.root_m.y() - grounded * lower);
   }
@@ -172,7 +173,7 @@ void PoseLegs(const BodyKey& key, const Feet& feet, RigPose& pose) {
   for (size_t s = 0; s < 2; ++s) {
     const LimbBones& b = RigBones().side[s];
     const Vector3d upper = RestBone(b.up_leg), lower = RestBone(b.leg);
-    // The knee points where the foot does, somewhat also where the pelvis does.
+    // The knee points in the direction of the foot, and partly of the pelvis.
     const double yaw =
         key.heading + 0.4 * key.twist + SideSign(s) * (0.8 * key.leg[s].yaw + key.leg[s].knee);
     const Vector3d pole = Turn(yaw, kY) * (kZ + 0.25 * kY);
@@ -184,12 +185,12 @@ void PoseLegs(const BodyKey& key, const Feet& feet, RigPose& pose) {
     pose.world_from_rest[b.foot] = feet.foot[s];
     pose.world_from_rest[b.toe] =
         key.leg[s].pitch > 0 && key.leg[s].foot_m.y() < 0.02
-            ? Turn(key.heading + SideSign(s) * key.leg[s].yaw, kY)  // toes stay on the floor
+            ? Turn(key.heading + SideSign(s) * key.leg[s].yaw, kY)  // toes stay in place
             : feet.foot[s];
   }
 }
 
-/// Centre of mass from the joints; parts of the body mass after Winter 2009, table 4.1.
+/// Centre of mass from the joints; mass fractions after Winter 2009, table 4.1.
 Vector3d ComputeCentreOfMass(const RigPose& pose) {
   const Posture p = StandardPosture(pose);
   struct Segment {
@@ -222,7 +223,7 @@ Vector3d ComputeCentreOfMass(const RigPose& pose) {
 Vector3d FindSupport(const BodyKey& key, const Feet& feet) {
   std::array<Vector3d, 2> middle;
   for (size_t s = 0; s < 2; ++s) {
-    // Weight rests before the ankle; on the ball when the heel is up.
+    // The weight rests in front of the ankle; on the ball when the heel is up.
     const double ahead_m = 0.045 + 0.08 * std::clamp(key.leg[s].pitch / 30.0, 0.0, 1.0);
     middle[s] = feet.ankle[s] +
                 Turn(key.heading + SideSign(s) * key.leg[s].yaw, kY) * Vector3d(0, 0, ahead_m);
@@ -230,12 +231,12 @@ Vector3d FindSupport(const BodyKey& key, const Feet& feet) {
   return key.weight * middle[0] + (1.0 - key.weight) * middle[1];
 }
 
-/// Moves the pelvis until the centre of mass stands above the support.
+/// Moves the pelvis until the centre of mass is above the support.
 void Balance(const BodyKey& key, const Feet& feet, RigPose& pose) {
   if (key.balance <= 0.0) return;
   const Vector3d lean = Turn(key.heading, kY) * Vector3d(key.lean_left_m, 0.0, key.lean_front_m);
   const Vector3d support = FindSupport(key, feet) + lean;
-  // The legs' mass moves less than the pelvis: a few rounds settle it.
+  // The legs' mass moves less than the pelvis: a few iterations converge.
   for (int round = 0; round < 4; ++round) {
     pose.root_m.y() = key.pelvis_m.y();
     LowerToFeet(key, feet, pose);
@@ -247,7 +248,7 @@ void Balance(const BodyKey& key, const Feet& feet, RigPose& pose) {
   pose.root_m.y() = key.pelvis_m.y();
 }
 
-/// Rotation of a part `share` of the trunk's or neck's bend.
+/// Rotation by a `share` of the bend of trunk or neck.
 Quaterniond Bend(double forwards, double left, double turn, double share) {
   return Turn(turn * share, kY) * Turn(forwards * share, kX) * Turn(-left * share, kZ);
 }
@@ -288,7 +289,7 @@ void PoseTrunk(const BodyKey& key, RigPose& pose) {
 BodyKey::BodyKey() {
   for (size_t s = 0; s < 2; ++s) {
     leg[s].foot_m = Vector3d(SideSign(s) * 0.11, 0.0, 0.0);
-    leg[s].yaw = 4.0;  // the rig's own feet stand 6° outwards already
+    leg[s].yaw = 4.0;  // the rig's feet are rotated outwards by 6° at rest
   }
 }
 
@@ -366,7 +367,7 @@ void ReachFor(BodyKey& key, size_t side, const Vector3d& target_m) {
   const Vector3d target =
       rest.head_m[b.neck] + Vector3d(SideSign(side) * target_m.x(), target_m.y(), target_m.z());
   Vector3d shoulder = rest.head_m[limb.arm];
-  // The shoulder follows the arm by the collar: a few rounds settle it.
+  // The shoulder follows the arm by way of the collar: a few iterations converge.
   for (int round = 0; round < 5; ++round) {
     const Vector3d d = target - shoulder;
     const double distance = d.norm();
@@ -385,7 +386,7 @@ void ReachFor(BodyKey& key, size_t side, const Vector3d& target_m) {
 
 void ReachForInWorld(BodyKey& key, size_t side, const Vector3d& place_m) {
   const Bones& b = RigBones();
-  // The arms' weight moves the pelvis a little: a few rounds settle it.
+  // The arms' weight moves the pelvis a little: a few iterations converge.
   for (int round = 0; round < 3; ++round) {
     const RigPose pose = ComputePose(key);
     const Vector3d from_neck =

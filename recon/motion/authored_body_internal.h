@@ -6,9 +6,9 @@
 
 namespace ossa::recon {
 
-/// One arm, by where the wrist is seen from the shoulder, in the chest's axes. Angles are degrees.
-/// flex: 0 hanging, 90 forwards, 180 upright, negative backwards; abduct: outwards from there, 90
-/// straight to the side, 165 nearly upright through the side, negative across the chest.
+/// One arm, by the direction of the wrist from the shoulder, in the chest's axes. Angles are
+/// degrees. flex: 0 hanging, 90 forwards, 180 upright, negative backwards; abduct: outwards from
+/// there, 90 straight to the side, 165 nearly upright through the side, negative across the chest.
 struct ArmKey {
   double flex = 4.0;
   double abduct = 11.0;
@@ -17,16 +17,17 @@ struct ArmKey {
   double pronate = 0.0;  // forearm about itself; positive: palm down in front of the body
 };
 
-/// One foot: place of the ankle's ground point in the clip's world, metres; angles in degrees.
+/// One foot: position below the ankle on the ground, in the clip's world, metres; angles in
+/// degrees.
 struct LegKey {
   Eigen::Vector3d foot_m = Eigen::Vector3d::Zero();  // y: height of the sole
   double pitch = 0.0;  // positive: heel up, about the ball of the foot; negative: toes up
   double yaw = 0.0;    // positive: toes outwards
-  double knee = 0.0;   // turns the knee outwards
+  double knee = 0.0;   // rotates the knee outwards
 };
 
-/// A key posture in terms of a mover: where the weight is, how the trunk bends, where hands and
-/// feet are. Every number is meant to be interpolated on its own. Degrees and metres.
+/// A key posture in high-level terms: weight, bends of the trunk, positions of hands and feet. Each
+/// number can be interpolated independently. Degrees and metres.
 struct BodyKey {
   Eigen::Vector3d pelvis_m = Eigen::Vector3d(0.0, 0.862, 0.0);  // y: at most, legs may not reach
   double heading = 0.0;                          // positive: towards the person's left
@@ -39,7 +40,7 @@ struct BodyKey {
   double nod = 0.0;                              // head against chest, positive: down
   double look = 0.0;                             // positive: to the left
   double tilt = 0.0;                             // positive: to the left
-  double weight = 0.5;                           // part of the weight on the left foot
+  double weight = 0.5;                           // share of the weight on the left foot
   double lean_left_m = 0.0, lean_front_m = 0.0;  // centre of mass off the support, when balanced
   double balance = 1.0;       // 0: the pelvis is above pelvis_m; 1: where the body is balanced
   std::array<ArmKey, 2> arm;  // left, right
@@ -54,7 +55,7 @@ using BodyKeyNumbers = std::array<double, kBodyKeyNumbers>;
 BodyKeyNumbers ToNumbers(const BodyKey& key);
 BodyKey ToKey(const BodyKeyNumbers& numbers);
 
-/// Left and right exchanged.
+/// The mirrored posture: left and right exchanged.
 BodyKey Mirrored(const BodyKey& key);
 
 /// The posture on the standard body: two-bone inverse kinematics of arms and legs (law of cosines),
@@ -66,11 +67,11 @@ RigPose ComputePose(const BodyKey& key);
 void PoseTrunk(const BodyKey& key, RigPose& pose);
 void PoseArm(const ArmKey& arm, size_t side, RigPose& pose);
 
-/// Sets flex, abduct and reach of an arm so that the wrist comes to `target_m`: outwards, up and
+/// Sets flex, abduct and reach of an arm so that the wrist is at `target_m`: outwards, up and
 /// forwards from the base of the neck, in the chest's axes.
 void ReachFor(BodyKey& key, size_t side, const Eigen::Vector3d& target_m);
 
-/// The same for a place in the clip's world, after the trunk and legs of `key` are set.
+/// As ReachFor, for a position in the clip's world; set trunk and legs of `key` first.
 void ReachForInWorld(BodyKey& key, size_t side, const Eigen::Vector3d& place_m);
 
 }  // namespace ossa::recon

@@ -8,8 +8,8 @@
 
 namespace ossa::recon {
 
-/// All variations of all actions, named PREFIX/ACTION/NN. `MovesOf` is what an action performs
-/// with, made of a seed; `seed_of` (action, variation) makes that seed.
+/// All variations of all actions, named PREFIX/ACTION/NN. `MovesOf` is the class an action performs
+/// with, constructed from a seed; `seed_of` (action, variation) computes that seed.
 template <typename MovesOf, typename Actions, typename SeedOf>
 std::vector<MotionClip> PlayActions(std::string_view prefix, const Actions& actions,
                                     const AuthoredOptions& options, const SeedOf& seed_of) {

@@ -1,4 +1,4 @@
-// Exercises as physiotherapy and functional movement screens ask for them.
+// Exercises of physiotherapy and functional movement screens.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: of the authored mover, anthropometry: a person of 1.75 m, rounded; the rest by eye.
+// Constants: of the authored body, anthropometry: a person of 1.75 m, rounded; the rest by eye.
 
 using Eigen::Vector3d;
 
@@ -44,7 +44,7 @@ enum class Arms {
 
 Arms DrawArms(Moves& m) { return static_cast<Arms>(m.Count(0, 7)); }
 
-/// `lean`: degrees of the chest to the front, so that arms are level in the room, not to the chest.
+/// `lean`: forward lean of the chest, degrees, compensated so that arms are level in the room.
 void HoldArms(BodyKey& key, Arms arms, double lean) {
   for (size_t s = 0; s < 2; ++s) {
     ArmKey& arm = key.arm[s];
@@ -81,12 +81,12 @@ void HoldArms(BodyKey& key, Arms arms, double lean) {
   }
 }
 
-/// The arms go first, as they are told to; then the legs.
+/// Arms first, then the legs.
 void RaiseArmsFirst(Moves& m, Arms arms) {
   m.To(0.7, [&](BodyKey& key) { HoldArms(key, arms, 0.0); });
 }
 
-/// Thighs below level, heels down, the trunk as steep as the hips allow.
+/// Thighs below horizontal, heels down, the trunk as upright as the hips allow.
 void DeepSquat(Moves& m) {
   const Arms arms = m.Coin() ? Arms::kBarOverhead : DrawArms(m);
   const double half_m = m.Between(0.12, 0.24), toes = m.Between(4.0, 22.0);
@@ -255,7 +255,7 @@ void SitToStand(Moves& m) {
   m.Ease(0.6);
 }
 
-/// A straight leg to the front, to the side or to the back on the other one.
+/// Lifts a straight leg to the front, side or back.
 void LegRaise(Moves& m) {
   const Arms arms = DrawArms(m);
   RaiseArmsFirst(m, arms);
@@ -309,7 +309,7 @@ void ElevateArms(Moves& m, double plane) {
         key.side = which > 1 ? 0.0 : (which == 0 ? -1.0 : 1.0) * 0.04 * elevation;
       });
     };
-    // A few stations keep the arm in the plane.
+    // Intermediate keys keep the arm in the plane.
     for (const double part : {0.3, 0.55, 0.8, 1.0}) to(m.Between(0.3, 0.5), part * top);
     m.Hold(m.Between(0.2, 0.5));
     for (const double part : {0.7, 0.4}) to(0.4, part * top);
@@ -322,7 +322,7 @@ void ShoulderAbduction(Moves& m) { ElevateArms(m, 0.0); }
 void ShoulderScaption(Moves& m) { ElevateArms(m, m.Between(22.0, 48.0)); }
 void ShoulderFlexion(Moves& m) { ElevateArms(m, m.Between(76.0, 90.0)); }
 
-/// A straight arm, or both, as far back as it goes, the trunk upright or giving a little.
+/// One or both straight arms as far back as possible, the trunk upright or leaning a little.
 void ShoulderExtension(Moves& m) {
   const int which = m.Count(0, 3);
   for (int i = m.Count(2, 4); i > 0; --i) {
@@ -338,13 +338,14 @@ void ShoulderExtension(Moves& m) {
   }
 }
 
-/// The upper arm stays, level to the side or at the trunk, the elbow square; the forearm turns.
+/// The upper arm is fixed, level to the side or at the trunk, the elbow at a right angle; the
+/// forearm rotates.
 void ShoulderRotation(Moves& m) {
   constexpr double kUpperArm_m = 0.26, kForearm_m = 0.23, kShoulder_m = 0.17;
   const bool level = m.Between(0.0, 1.0) < 0.65;
   const int which = m.Count(0, 3);
   for (int i = m.Count(4, 6); i > 0; --i) {
-    // Degrees of the forearm from straight ahead: up and down, or outwards and inwards.
+    // Angle of the forearm from straight ahead, degrees: up and down, or outwards and inwards.
     const double turn =
         i % 2 == 0 ? m.Between(50.0, 95.0) : (level ? m.Between(-80.0, -20.0) : -35.0);
     const double c = std::cos(turn * std::numbers::pi / 180.0),
@@ -353,7 +354,7 @@ void ShoulderRotation(Moves& m) {
       for (size_t side = which == 1 ? 1 : 0; side < (which == 0 ? 1u : 2u); ++side) {
         if (level) {
           ReachFor(key, side, {kShoulder_m + kUpperArm_m, -0.07 + kForearm_m * s, kForearm_m * c});
-          // The elbow at the shoulder's height, whichever way the wrist is.
+          // Keeps the elbow at shoulder height wherever the wrist is.
           key.arm[side].swivel = 55.0 - 0.5 * turn;
         } else {
           ReachFor(key, side, {kShoulder_m + 0.06 + kForearm_m * s, -0.33, kForearm_m * c + 0.02});
@@ -366,7 +367,7 @@ void ShoulderRotation(Moves& m) {
   m.Ease(0.7);
 }
 
-/// Arms spread or before the chest while the trunk turns as far as it goes.
+/// Rotates the trunk as far as possible, arms spread or in front of the chest.
 void TrunkRotation(Moves& m) {
   const Arms arms = m.Coin() ? Arms::kSpread : DrawArms(m);
   RaiseArmsFirst(m, arms);
@@ -383,7 +384,7 @@ void TrunkRotation(Moves& m) {
   m.Ease(0.8);
 }
 
-/// One arm over the head, the trunk bent away from it: the flank is stretched.
+/// One arm over the head, the trunk bent sideways away from it: stretches the flank.
 void FlankStretch(Moves& m) {
   for (int i = m.Count(2, 4); i > 0; --i) {
     const size_t side = i % 2 == 0 ? 0 : 1;

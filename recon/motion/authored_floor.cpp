@@ -22,18 +22,17 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// One leg by the angles of its joints in the pelvis' axes, degrees. On the floor the feet do not
-/// say where the legs are, as they do in a LegKey.
+/// One leg by its joint angles in the pelvis' axes, degrees. On the floor, foot positions do not
+/// determine the legs as they do in a LegKey.
 struct LegAngles {
-  double flex = 0.0;  // the thigh forwards
-  double abduct =
-      0.0;            // outwards; of a thigh that points forwards: about itself, the shin outwards
-  double turn = 0.0;  // outwards about the trunk's length
-  double knee = 0.0;  // bent
-  double foot = 0.0;  // positive: toes away from the shin
+  double flex = 0.0;    // the thigh forwards
+  double abduct = 0.0;  // outwards; for a forward thigh: about itself, the shin outwards
+  double turn = 0.0;    // outwards about the trunk's length
+  double knee = 0.0;    // bent
+  double foot = 0.0;    // positive: toes away from the shin
 };
 
-/// Trunk and arms as in a BodyKey, whose feet and balance do not count, and the legs' angles.
+/// Trunk and arms as in a BodyKey (its feet and balance are ignored), and the legs' angles.
 struct FloorKey {
   BodyKey body;
   std::array<LegAngles, 2> leg;  // left, right
@@ -86,7 +85,7 @@ void PoseLeg(const LegAngles& leg, size_t side, RigPose& pose) {
 
 /// Puts the lowest part of the body on the floor.
 void LayDown(RigPose& pose) {
-  // From each joint to the skin, metres, anthropometry, rounded; in the SDK's order.
+  // Distance from each joint to the skin, metres, anthropometry, rounded; in SDK order.
   constexpr JointArray<double> kFlesh_m = {0.11, 0.11, 0.08, 0.11, 0.07, 0.05, 0.04,
                                            0.03, 0.07, 0.05, 0.04, 0.03, 0.10, 0.06,
                                            0.06, 0.03, 0.10, 0.06, 0.06, 0.03};
@@ -111,7 +110,7 @@ RigPose ComputePose(const FloorKey& key) {
   return pose;
 }
 
-/// A choreography under way: keys with their times; between them everything eases in and out.
+/// A sequence of timed keys under construction, interpolated with easing.
 class FloorMoves {
  public:
   explicit FloorMoves(uint64_t seed) : random_(seed), tempo_(random_.Uniform(0.8, 1.3)) {
@@ -128,7 +127,7 @@ class FloorMoves {
     Put(seconds * tempo_ * Between(0.9, 1.1));
   }
   void Hold(double seconds) {
-    To(seconds, [&](FloorKey& key) {  // nobody is quite still
+    To(seconds, [&](FloorKey& key) {  // people are never quite still
       key.body.look += Between(-12, 12);
       key.body.nod += Between(-5, 5);
     });
@@ -171,7 +170,7 @@ class FloorMoves {
   std::vector<FloorNumbers> keys_;
 };
 
-void Relax(FloorMoves& m, FloorKey& key) {  // arms anywhere easy
+void Relax(FloorMoves& m, FloorKey& key) {  // arms in a relaxed position
   for (ArmKey& arm : key.body.arm) {
     arm = {m.Between(-10, 40), m.Between(8, 60), m.Between(0.7, 0.97), m.Between(-15, 30),
            m.Between(-10, 60)};
@@ -276,7 +275,7 @@ void Lying(FloorMoves& m, FloorKey& key, double kind) {
            : on_side ? m.Between(5, 80)
                      : m.Between(-8, 5),
            m.Between(0, 18), m.Between(0, 20), m.Between(0, 30), m.Between(10, 40)};
-    if (kind < 1) leg.knee += leg.flex;  // the foot stands beside
+    if (kind < 1) leg.knee += leg.flex;  // the foot is on the floor
     if (on_side) leg.knee = m.Between(10, 110);
   }
 }

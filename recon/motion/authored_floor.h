@@ -6,10 +6,9 @@
 
 namespace ossa::recon {
 
-/// What people do whom walking and gesturing do not show: lie down on back, belly and side, kneel,
-/// sit on the floor, crouch, crawl, bring an elbow to a knee, hold their arms behind the back, turn
-/// fast. Key postures put down by hand, with variation; named "authored-floor/ACTION/N". Same
-/// options: same bytes.
+/// Motions beyond walking and gesturing: lying on back, belly and side, kneeling, sitting on the
+/// floor, crouching, crawling, elbow to knee, arms behind the back, fast turns. Key postures
+/// written by hand, with variation; named "authored-floor/ACTION/N". Same options: same bytes.
 std::vector<MotionClip> AuthoredFloorClips(const AuthoredOptions& options = {});
 
 /// Names of the actions, in the order of the clips.

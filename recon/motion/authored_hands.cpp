@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 void Point(Moves& m) {
   for (int i = m.Count(3, 4); i > 0; --i) {
-    const size_t side = m.Between(0.0, 1.0) < 0.75 ? 1 : 0;  // mostly with the better hand
+    const size_t side = m.Between(0.0, 1.0) < 0.75 ? 1 : 0;  // mostly the dominant hand
     m.To(m.Between(0.5, 0.8), [&](BodyKey& key) {
       ArmKey& arm = key.arm[side];
       arm = {m.Between(50.0, 125.0), m.Between(-30.0, 75.0), m.Between(0.94, 0.99), 0.0, 40.0};
@@ -65,7 +65,7 @@ void CrossArms(Moves& m) {
   m.To(0.6, [&](BodyKey& key) {
     for (size_t s = 0; s < 2; ++s) ReachFor(key, s, {0.12, height_m, 0.3});
   });
-  m.To(0.6, [&](BodyKey& key) {  // one forearm above and before the other
+  m.To(0.6, [&](BodyKey& key) {  // one forearm above and in front of the other
     ReachFor(key, 0, {-0.09, height_m + 0.03, 0.25});
     ReachFor(key, 1, {-0.07, height_m - 0.04, 0.19});
     for (ArmKey& arm : key.arm) arm.swivel = 12.0;
@@ -85,7 +85,7 @@ void CrossArms(Moves& m) {
   m.Ease(0.6);
 }
 
-/// Forearms roll about each other before the chest; the roll wanders along `drift`.
+/// Forearms roll about each other in front of the chest, drifting along `drift`.
 void RollHands(Moves& m, const Vector3d& drift) {
   const double radius_m = m.Between(0.06, 0.1), beat = m.Between(0.12, 0.18);
   const double start = m.Between(-0.02, 0.05);
@@ -179,7 +179,8 @@ void RaiseArms(Moves& m) {
   m.Ease(0.9);
 }
 
-/// One hand or both to places all round, the trunk helping, sometimes with a bend to low places.
+/// Reaches with one or both hands to places all around, supported by the trunk, sometimes bending
+/// down.
 void ReachAround(Moves& m) {
   for (int i = m.Count(4, 6); i > 0; --i) {
     m.To(m.Between(0.6, 1.0), [&](BodyKey& key) {
@@ -188,7 +189,7 @@ void ReachAround(Moves& m) {
         if (m.Between(0.0, 1.0) < 0.35) continue;
         key.arm[s] = {m.Between(-35.0, 165.0), m.Between(-25.0, 85.0), m.Between(0.65, 0.99),
                       m.Between(-15.0, 35.0), m.Between(-20.0, 60.0)};
-        // A hand behind the back or across it is no everyday reach.
+        // Keeps hands from reaching across behind the back.
         if (key.arm[s].flex < 20.0) key.arm[s].abduct = std::abs(key.arm[s].abduct) + 12.0;
       }
       key.turn = m.Between(-35.0, 35.0);
@@ -203,7 +204,7 @@ void ReachAround(Moves& m) {
   m.Ease(0.9);
 }
 
-/// What hands do while their owner talks.
+/// Hand gestures while talking.
 void Talk(Moves& m) {
   for (int i = m.Count(7, 11); i > 0; --i) {
     m.To(m.Between(0.3, 0.7), [&](BodyKey& key) {
@@ -222,7 +223,7 @@ void Talk(Moves& m) {
   m.Ease(0.7);
 }
 
-/// Both hands swipe, push or steer before the body, as in front of a screen.
+/// Both hands swipe, push or steer in front of the body, as in front of a screen.
 void Swipe(Moves& m) {
   for (int i = m.Count(3, 5); i > 0; --i) {
     const size_t side = m.Coin() ? 0 : 1;

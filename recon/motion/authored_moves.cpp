@@ -10,15 +10,15 @@ namespace {
 using Eigen::Vector3d;
 
 /// Slope of a monotone cubic at a point between two intervals (Fritsch & Carlson 1980; weighted
-/// harmonic mean of the neighbours' slopes, 0 where they turn).
+/// harmonic mean of the neighbours' slopes, 0 at extrema).
 double MonotoneSlope(double h0, double d0, double h1, double d1) {
   if (d0 * d1 <= 0.0) return 0.0;
   const double w0 = 2.0 * h1 + h0, w1 = h1 + 2.0 * h0;
   return (w0 + w1) / (w0 / d0 + w1 / d1);
 }
 
-/// Degrees of slow sway of each number of a BodyKey; feet and pelvis place have none (they follow
-/// from balance and contact).
+/// Amplitude of slow sway of each number of a BodyKey, degrees; none for feet and pelvis position,
+/// which follow from balance and contact.
 constexpr BodyKeyNumbers kSway = [] {
   BodyKeyNumbers sway{};
   sway[4] = 0.5, sway[5] = 0.4, sway[6] = 0.8;     // pelvis pitch, roll, twist
@@ -90,7 +90,7 @@ void Moves::Ease(double seconds) {
 }
 
 double Moves::Between(double low, double high) {
-  // 53 random bits: the same on every machine, unlike the library's distributions.
+  // 53 random bits: the same on every machine, unlike the standard distributions.
   return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
 }
 
@@ -158,49 +158,81 @@ Vector3d FootBeside(const BodyKey& ease, size_t side, const Vector3d& place_m, d
   return place_m + Eigen::AngleAxisd(angle, Vector3d::UnitY()) * Vector3d(foot.x(), 0.0, foot.z());
 }
 
+namespace {
+
+/// The body's path during a step.
+class StepPath {
+ public:
+  StepPath(const BodyKey& from, const StepTo& step)
+      : from_(from), step_(step), other_(1 - step.side), way_(step.foot_m - FootBefore()) {
+    const double angle = step.heading * std::numbers::pi / 180.0;
+    const Vector3d front(std::sin(angle), 0.0, std::cos(angle));
+    stride_ = std::clamp(way_.dot(front) / 1.2, -0.3, 1.0);
+    to_ = 0.5 * (step.foot_m + from.leg[other_].foot_m);
+    to_.y() = from.pelvis_m.y();
+    other_foot_heading_ = from.heading + OtherSign() * from.leg[other_].yaw;
+  }
+
+  /// 1 for a full stride forwards: heels rise and strike, arms swing, the pelvis rotates with the
+  /// leg.
+  double stride() const { return stride_; }
+  /// Displacement of the stepping foot.
+  const Vector3d& way() const { return way_; }
+  const Vector3d& FootBefore() const { return from_.leg[step_.side].foot_m; }
+
+  /// Moves pelvis and heading to `part` of the way. The standing foot keeps its direction while the
+  /// body turns over it.
+  void MoveBody(BodyKey& key, double part) const {
+    key.balance = 0.0;
+    key.pelvis_m = from_.pelvis_m + part * (to_ - from_.pelvis_m);
+    key.heading = from_.heading + part * (step_.heading - from_.heading);
+    key.leg[other_].yaw = OtherSign() * (other_foot_heading_ - key.heading);
+  }
+
+ private:
+  double OtherSign() const { return other_ == 0 ? 1.0 : -1.0; }
+
+  const BodyKey from_;
+  const StepTo& step_;
+  size_t other_;
+  Vector3d way_;
+  Vector3d to_;  // of the pelvis
+  double stride_ = 0.0;
+  double other_foot_heading_ = 0.0;  // world
+};
+
+}  // namespace
+
 void Step(Moves& moves, const StepTo& step, const std::function<void(BodyKey&)>& arms) {
   const size_t other = 1 - step.side;
   const double side_sign = step.side == 0 ? 1.0 : -1.0;
-  const BodyKey from = moves.now;
-  const Vector3d way = step.foot_m - from.leg[step.side].foot_m;
-  const double angle = step.heading * std::numbers::pi / 180.0;
-  const Vector3d front(std::sin(angle), 0.0, std::cos(angle));
-  // 1 for a good stride forwards: heels rise and strike, arms swing, the pelvis turns with the leg.
-  const double stride = std::clamp(way.dot(front) / 1.2, -0.3, 1.0);
-  const double foot_world = from.heading + (other == 0 ? 1.0 : -1.0) * from.leg[other].yaw;
-  Vector3d to = 0.5 * (step.foot_m + from.leg[other].foot_m);
-  to.y() = from.pelvis_m.y();
-  const auto move = [&](BodyKey& key, double part) {
-    key.balance = 0.0;
-    key.pelvis_m = from.pelvis_m + part * (to - from.pelvis_m);
-    key.heading = from.heading + part * (step.heading - from.heading);
-    // The standing foot stays as it stands while the body turns over it.
-    key.leg[other].yaw = (other == 0 ? 1.0 : -1.0) * (foot_world - key.heading);
-  };
+  const StepPath path(moves.now, step);
+  const double forwards = std::max(path.stride(), 0.0);
   moves.To(0.22 * step.seconds, [&](BodyKey& key) {
-    move(key, 0.24);
+    path.MoveBody(key, 0.24);
     key.leg[other].pitch = 0.0;
-    key.leg[step.side].pitch = 12.0 + 32.0 * std::max(stride, 0.0);
+    key.leg[step.side].pitch = 12.0 + 32.0 * forwards;
     key.roll = -side_sign * 1.5;
   });
   moves.To(0.4 * step.seconds, [&](BodyKey& key) {
-    move(key, 0.62);
+    path.MoveBody(key, 0.62);
+    const double angle = step.heading * std::numbers::pi / 180.0;
     const Vector3d sway =
         Eigen::AngleAxisd(angle, Vector3d::UnitY()) * Vector3d(-side_sign * 0.025, 0, 0);
     key.pelvis_m += sway;
-    key.leg[step.side].foot_m = from.leg[step.side].foot_m + 0.6 * way;
+    key.leg[step.side].foot_m = path.FootBefore() + 0.6 * path.way();
     key.leg[step.side].foot_m.y() = step.lift_m;
-    key.leg[step.side].pitch = 14.0 * std::max(stride, 0.0);
+    key.leg[step.side].pitch = 14.0 * forwards;
     key.roll = -side_sign * 2.5;
   });
   moves.To(0.38 * step.seconds, [&](BodyKey& key) {
-    move(key, 1.0);
+    path.MoveBody(key, 1.0);
     key.leg[step.side].foot_m = step.foot_m;
-    key.leg[step.side].pitch = -17.0 * std::max(stride, 0.0);
+    key.leg[step.side].pitch = -17.0 * forwards;
     key.leg[step.side].yaw = moves.ease().leg[step.side].yaw;
-    key.leg[other].pitch = 16.0 * std::max(stride, 0.0);
-    key.twist = -side_sign * 7.0 * stride;
-    key.turn = side_sign * 12.0 * stride;
+    key.leg[other].pitch = 16.0 * forwards;
+    key.twist = -side_sign * 7.0 * path.stride();
+    key.turn = side_sign * 12.0 * path.stride();
     key.roll = 0.0;
     arms(key);
   });

@@ -10,29 +10,30 @@
 
 namespace ossa::recon {
 
-/// A choreography under way: key postures with their times, and the mover's own style drawn from
-/// the seed (stance, amplitude, tempo, sidedness). Actions change `now` and put it down as a key.
+/// A sequence of timed key postures under construction, in a performer style drawn from the seed
+/// (stance, amplitude, tempo, sidedness). Actions modify `now` and add it as a key.
 class Moves {
  public:
   explicit Moves(uint64_t seed);
 
   BodyKey now;
-  const BodyKey& ease() const { return ease_; }  // how this mover stands
+  const BodyKey& ease() const { return ease_; }  // this performer's relaxed stance
 
-  /// Goes to the edited posture in `seconds` (times the mover's tempo).
+  /// Moves to the edited posture in `seconds` (times the performer's tempo).
   void To(double seconds, const std::function<void(BodyKey&)>& edit);
   void Hold(double seconds);
-  /// Back to the mover's easy stance where the feet are now.
+  /// Returns to the relaxed stance at the current foot positions.
   void Ease(double seconds);
 
   double Between(double low, double high);
-  /// `value` more or less by the mover's amplitude and a share of chance.
+  /// `value` scaled by the performer's amplitude and a random factor.
   double Size(double value);
   bool Coin();
   int Count(int low, int high);  // both included
 
-  /// The clip: keys joined by monotone cubic curves (Fritsch & Carlson 1980: rest at turning
-  /// points, no overshoot), with slow sway of trunk, head and arms; mirrored for left-sided movers.
+  /// The clip: keys interpolated by monotone cubic curves (Fritsch & Carlson 1980: at rest at
+  /// extrema, no overshoot), with slow sway of trunk, head and arms; mirrored for left-handed
+  /// performers.
   std::vector<RigPose> Play(double frame_s) const;
 
  private:
@@ -50,12 +51,12 @@ class Moves {
   std::vector<BodyKeyNumbers> keys_;
 };
 
-/// One step of foot `side` to a place and direction in the world; the pelvis ends between the feet,
-/// heading there. `lift_m` is the height of the sole halfway.
+/// A step of foot `side` to a position and heading in the world; the pelvis ends between the feet
+/// with that heading. `lift_m` is the height of the sole halfway.
 struct StepTo {
   size_t side = 0;
   Eigen::Vector3d foot_m = Eigen::Vector3d::Zero();
-  double heading = 0.0;  // degrees, of the body after the step
+  double heading = 0.0;  // of the body after the step, degrees
   double seconds = 0.55;
   double lift_m = 0.06;
 };
@@ -63,7 +64,7 @@ struct StepTo {
 void Step(
     Moves& moves, const StepTo& step, const std::function<void(BodyKey&)>& arms = [](BodyKey&) {});
 
-/// Foot places beside a body at `place_m` heading `heading` degrees.
+/// Foot positions beside a body at `place_m` with heading `heading` degrees.
 Eigen::Vector3d FootBeside(const BodyKey& ease, size_t side, const Eigen::Vector3d& place_m,
                            double heading);
 

@@ -9,8 +9,8 @@ using Eigen::Vector3d;
 
 struct Seat {
   double hips_m;   // height of bone Hips above the floor when seated: about 9 cm above the seat
-  double back_m;   // how far behind the feet
-  double recline;  // degrees of the trunk, positive backwards
+  double back_m;   // distance behind the feet
+  double recline;  // of the trunk, degrees, positive backwards
 };
 
 Seat DrawSeat(Moves& m) {

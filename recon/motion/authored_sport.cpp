@@ -15,35 +15,38 @@ void WidenStance(Moves& m, double half_m, double seconds) {
   }
 }
 
-/// A right-hander: feet wide, both hands on the club. Chest turns carry the hands, so the hands'
-/// places are given in the chest's axes (outwards from either side's own shoulder line).
+/// Both hands on the club at `place`, the right one below the left. Rotation of the chest carries
+/// the hands, so the place is given in the chest's axes (outwards from the shoulder line of either
+/// side).
+void GripClub(BodyKey& key, const Vector3d& place) {
+  ReachFor(key, 0, place + Vector3d(0.0, 0.02, 0.0));
+  ReachFor(key, 1, Vector3d(-place.x(), place.y() - 0.05, place.z() + 0.01));
+}
+
+void AddressBall(BodyKey& key) {
+  key.balance = 1.0;
+  key.pelvis_m.y() = 0.8;
+  key.pitch = 24.0;
+  key.bend = 14.0;
+  key.nod = 12.0;
+  key.turn = key.twist = key.side = key.look = 0.0;
+  key.weight = 0.5;
+  key.leg[1].pitch = 0.0;
+  GripClub(key, {0.0, -0.5, 0.3});
+}
+
+/// A right-handed swing with feet wide apart.
 void Golf(Moves& m) {
   WidenStance(m, 0.2, 0.4);
   const double size = m.Between(0.7, 1.05), top = 78.0 * size;
-  const auto grip = [](BodyKey& key, const Vector3d& place) {
-    // Right hand below the left on the club.
-    ReachFor(key, 0, place + Vector3d(0.0, 0.02, 0.0));
-    ReachFor(key, 1, Vector3d(-place.x(), place.y() - 0.05, place.z() + 0.01));
-  };
-  const auto address = [&](BodyKey& key) {
-    key.balance = 1.0;
-    key.pelvis_m.y() = 0.8;
-    key.pitch = 24.0;
-    key.bend = 14.0;
-    key.nod = 12.0;
-    key.turn = key.twist = key.side = key.look = 0.0;
-    key.weight = 0.5;
-    key.leg[1].pitch = 0.0;
-    grip(key, {0.0, -0.5, 0.3});
-  };
-  m.To(0.8, address);
+  m.To(0.8, AddressBall);
   m.Hold(0.6);
   m.To(0.8, [&](BodyKey& key) {  // backswing
     key.turn = -0.6 * top;
     key.twist = -0.4 * top;
     key.look = 0.7 * top;
     key.weight = 0.25;
-    grip(key, Vector3d(-0.2, -0.12 + 0.18 * size, 0.3));
+    GripClub(key, Vector3d(-0.2, -0.12 + 0.18 * size, 0.3));
   });
   m.To(0.3, [&](BodyKey& key) {  // impact
     key.turn = 10.0;
@@ -51,7 +54,7 @@ void Golf(Moves& m) {
     key.look = -15.0;
     key.weight = 0.7;
     key.leg[1].pitch = 12.0;
-    grip(key, {0.02, -0.5, 0.32});
+    GripClub(key, {0.02, -0.5, 0.32});
   });
   m.To(0.4, [&](BodyKey& key) {  // follow-through
     key.turn = 0.55 * top;
@@ -61,10 +64,10 @@ void Golf(Moves& m) {
     key.bend = -4.0;
     key.weight = 0.9;
     key.leg[1].pitch = 45.0;
-    grip(key, {0.2, 0.08, 0.26});
+    GripClub(key, {0.2, 0.08, 0.26});
   });
   m.Hold(0.7);
-  m.To(0.9, address);
+  m.To(0.9, AddressBall);
   m.Ease(0.8);
 }
 
@@ -122,49 +125,52 @@ void Punch(Moves& m) {
   m.Ease(0.6);
 }
 
-void Kick(Moves& m) {
-  for (int i = m.Count(2, 3); i > 0; --i) {
-    const size_t side = m.Between(0.0, 1.0) < 0.7 ? 1 : 0;
-    const double sign = side == 0 ? 1.0 : -1.0;
-    const double height_m = m.Between(0.25, 0.85), out_m = m.Between(-0.05, 0.3);
-    const Vector3d home = m.ease().leg[side].foot_m;
-    const double load = side == 0 ? 0.06 : 0.94;
-    m.To(0.5, [&](BodyKey& key) {  // weight over, foot back
-      key.balance = 1.0;
-      key.weight = load;
-      key.leg[side].foot_m = home + Vector3d(0, 0.06, -0.25);
-      key.leg[side].pitch = 35.0;
-      key.arm[side].flex = 25.0;
-      key.arm[1 - side].flex = -20.0;
-    });
-    m.To(0.22, [&](BodyKey& key) {  // knee first
-      key.leg[side].foot_m = home + Vector3d(sign * 0.3 * out_m, 0.5 * height_m, 0.2);
-      key.leg[side].pitch = 30.0;
-      key.pitch = -6.0;
-    });
-    m.To(0.2, [&](BodyKey& key) {
-      key.leg[side].foot_m = home + Vector3d(sign * out_m, height_m, 0.75);
-      key.leg[side].pitch = 10.0 - 60.0 * height_m;
-      key.pitch = -16.0;
-      key.bend = 4.0;
-      key.twist = -sign * 12.0;
-      key.arm[side].flex = -25.0;
-      key.arm[1 - side] = {50.0, 20.0, 0.85, 0.0, 0.0};
-    });
-    m.To(0.35, [&](BodyKey& key) {
-      key.leg[side].foot_m = home + Vector3d(0, 0.2, 0.15);
-      key.leg[side].pitch = 20.0;
-      key.pitch = 0.0;
-    });
-    m.To(0.35, [&](BodyKey& key) {
-      key = m.ease();
-      key.weight = 0.5;
-    });
-    m.Hold(m.Between(0.2, 0.5));
-  }
+void KickOnce(Moves& m) {
+  const size_t side = m.Between(0.0, 1.0) < 0.7 ? 1 : 0;
+  const double sign = side == 0 ? 1.0 : -1.0;
+  const double height_m = m.Between(0.25, 0.85), out_m = m.Between(-0.05, 0.3);
+  const Vector3d home = m.ease().leg[side].foot_m;
+  const double load = side == 0 ? 0.06 : 0.94;
+  m.To(0.5, [&](BodyKey& key) {  // weight over, foot back
+    key.balance = 1.0;
+    key.weight = load;
+    key.leg[side].foot_m = home + Vector3d(0, 0.06, -0.25);
+    key.leg[side].pitch = 35.0;
+    key.arm[side].flex = 25.0;
+    key.arm[1 - side].flex = -20.0;
+  });
+  m.To(0.22, [&](BodyKey& key) {  // knee first
+    key.leg[side].foot_m = home + Vector3d(sign * 0.3 * out_m, 0.5 * height_m, 0.2);
+    key.leg[side].pitch = 30.0;
+    key.pitch = -6.0;
+  });
+  m.To(0.2, [&](BodyKey& key) {
+    key.leg[side].foot_m = home + Vector3d(sign * out_m, height_m, 0.75);
+    key.leg[side].pitch = 10.0 - 60.0 * height_m;
+    key.pitch = -16.0;
+    key.bend = 4.0;
+    key.twist = -sign * 12.0;
+    key.arm[side].flex = -25.0;
+    key.arm[1 - side] = {50.0, 20.0, 0.85, 0.0, 0.0};
+  });
+  m.To(0.35, [&](BodyKey& key) {
+    key.leg[side].foot_m = home + Vector3d(0, 0.2, 0.15);
+    key.leg[side].pitch = 20.0;
+    key.pitch = 0.0;
+  });
+  m.To(0.35, [&](BodyKey& key) {
+    key = m.ease();
+    key.weight = 0.5;
+  });
+  m.Hold(m.Between(0.2, 0.5));
 }
 
-/// Slow weight shifts in a deep, wide stance, arms drawing large curves: parting, pushing, clouds.
+void Kick(Moves& m) {
+  for (int i = m.Count(2, 3); i > 0; --i) KickOnce(m);
+}
+
+/// Slow weight shifts in a deep, wide stance, arms drawing large curves: parting, pushing, cloud
+/// hands.
 void TaiChi(Moves& m) {
   WidenStance(m, m.Between(0.24, 0.34), 0.8);
   const double height_m = m.Between(0.68, 0.78);
@@ -186,7 +192,7 @@ void TaiChi(Moves& m) {
         ReachFor(key, 1 - upper, {0.26, -0.45, 0.12});
       } else if (form == 1) {  // pushing with both
         for (size_t s = 0; s < 2; ++s) ReachFor(key, s, {0.15, m.Between(-0.12, 0.0), 0.44});
-      } else {  // clouds: one hand before the face, the other before the belly
+      } else {  // cloud hands: one hand in front of the face, one of the belly
         ReachFor(key, upper, {0.08, 0.0, 0.34});
         ReachFor(key, 1 - upper, {-0.02, -0.36, 0.3});
       }

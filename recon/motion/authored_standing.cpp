@@ -30,7 +30,7 @@ void TPose(Moves& m) {
     key.bend = key.nod = 0.0;
   });
   m.Hold(1.0);
-  m.To(0.8, [&](BodyKey& key) {  // on to an A-pose
+  m.To(0.8, [&](BodyKey& key) {  // then an A-pose
     for (ArmKey& arm : key.arm) arm.abduct = 45.0;
   });
   m.Hold(0.6);
@@ -85,7 +85,7 @@ void TwistTrunk(Moves& m) {
   m.Ease(0.7);
 }
 
-/// Goes down with bent knees and a bent back, hands to the floor before the feet.
+/// Bends knees and back, hands to the floor in front of the feet.
 void PickUp(Moves& m) {
   const double half_m = m.Between(0.08, 0.2), low_m = m.Between(0.08, 0.35);
   const bool one_hand = m.Coin();
@@ -106,18 +106,18 @@ void PickUp(Moves& m) {
     key.pitch = m.Between(25.0, 40.0);
     key.turn = turn;
     key.leg[0].knee = key.leg[1].knee = m.Between(4.0, 14.0);
-    // The idle hand hangs, whatever the trunk does.
+    // The free hand hangs, whatever the trunk does.
     key.arm[0].flex = 0.85 * (key.bend + key.pitch);
     hands_at(key, low_m, 0.38);
   });
   m.Hold(0.35);
-  m.To(1.0, [&](BodyKey& key) {  // up, the thing held before the belly
+  m.To(1.0, [&](BodyKey& key) {  // up, the object held in front of the belly
     key = m.ease();
     key.bend = -3.0;
     for (size_t s = one_hand ? 1 : 0; s < 2; ++s) ReachFor(key, s, {half_m, -0.35, 0.33});
   });
   m.Hold(m.Between(0.5, 1.2));
-  m.To(0.8, [&](BodyKey& key) {  // puts it on a shelf or a table at the side
+  m.To(0.8, [&](BodyKey& key) {  // puts it on a shelf or table at the side
     key.turn = m.Between(-40.0, 40.0);
     key.look = 0.5 * key.turn;
     const double shelf_m = m.Between(-0.4, 0.25);

@@ -14,7 +14,7 @@ Vector3d Ahead(double heading, double distance_m) {
   return {distance_m * std::sin(angle), 0.0, distance_m * std::cos(angle)};
 }
 
-/// Arms swing against the legs, more forwards than back, elbows bending in front.
+/// Arms swing opposite to the legs, more forwards than back; elbows bend in front.
 void SwingArms(BodyKey& key, size_t stepping_side, double degrees) {
   ArmKey& ahead = key.arm[1 - stepping_side];
   ArmKey& behind = key.arm[stepping_side];
@@ -28,7 +28,7 @@ struct Gait {
   double step_m = 0.6;
   double seconds = 0.55;
   double lift_m = 0.05;
-  double swing = 22.0;         // degrees of the arms; 0: they do something else
+  double swing = 22.0;         // of the arms, degrees; 0: arms are posed separately
   double turn_per_step = 0.0;  // degrees
 };
 

@@ -12,8 +12,8 @@
 namespace ossa::recon {
 namespace {
 
-/// The SDK's joint and the bone of the rig that begins there; of several (the trunk) the first is
-/// the usual one.
+/// The SDK's joints and the rig bone that starts at each; of several (the trunk) the first is the
+/// default.
 constexpr std::pair<std::string_view, std::string_view> kJointBones[] = {
     {"HipCenter", "Hips"},         {"Spine", "Spine"},
     {"ShoulderCenter", "Neck"},    {"Head", "Head"},
@@ -26,7 +26,7 @@ constexpr std::pair<std::string_view, std::string_view> kJointBones[] = {
     {"HipRight", "RightUpLeg"},    {"KneeRight", "RightLeg"},
     {"AnkleRight", "RightFoot"},   {"FootRight", "RightToeBase"}};
 
-/// A line in two at its '=', without the comment; both empty for a line of neither.
+/// Splits a line at its '=' and drops the comment; both parts are empty for a line without '='.
 std::pair<std::string, std::string> TakeApart(const TextScanner& scan,
                                               const std::vector<std::string_view>& words) {
   std::string text;

@@ -11,16 +11,16 @@ namespace ossa::recon {
 
 /// A line `bone = joint` of a mapping file.
 struct MappingLine {
-  std::string bone;   // of the rig, or a joint of the SDK
-  std::string joint;  // as a motion file calls it
+  std::string bone;   // a bone of the rig, or a joint of the SDK
+  std::string joint;  // its name in the motion file
   int line = 0;
 };
 
-/// Names of a motion file's joints or points that are none of those known, read from a text file:
-/// lines `BONE = name`, '#' begins a comment. BONE is a bone of the rig (Hips, LowerBack, Spine,
-/// Spine1, Neck, Neck1, Head and, with Left or Right before it, Shoulder, Arm, ForeArm, Hand,
-/// UpLeg, Leg, Foot, ToeBase), by which the joint is meant where it begins, or one of the SDK's 20
-/// joints; a line `rest = frame N` says that frame N (0 the first) shows the T-pose or A-pose.
+/// Joint or point names of a motion file that ossa does not know, from a text file: lines `BONE =
+/// name`, '#' starts a comment. BONE is a rig bone (Hips, LowerBack, Spine, Spine1, Neck, Neck1,
+/// Head and, prefixed by Left or Right, Shoulder, Arm, ForeArm, Hand, UpLeg, Leg, Foot, ToeBase),
+/// which stands for the joint where it starts, or one of the SDK's 20 joints. A line `rest = frame
+/// N` says that frame N (from 0) shows the T-pose or A-pose.
 struct BoneMapping {
   std::string file;  // for messages
   std::vector<MappingLine> lines;
@@ -28,16 +28,16 @@ struct BoneMapping {
   int rest_line = 0;
 };
 
-/// Throw InputError that names file and line. `file` stands for the text in messages.
+/// Throws InputError that names file and line. `file` stands for the text in messages.
 BoneMapping ParseBoneMapping(std::string text, const std::string& file);
 BoneMapping ReadBoneMapping(const std::filesystem::path& path);
 
-/// The SDK's joint where a bone of the rig begins ("LeftArm": ShoulderLeft), or of that name; none
-/// for bones that begin at none, as the collars.
+/// The SDK joint where a rig bone starts ("LeftArm": ShoulderLeft), or the joint of that name; none
+/// for bones that start at no SDK joint, such as collars.
 std::optional<Joint> FindJointOfBone(std::string_view bone);
 
-/// The rig's bone that begins at a joint of the SDK ("ShoulderLeft": "LeftArm"); `bone` itself when
-/// it is no such joint; "" for a hand, which is inside a bone.
+/// The rig bone that starts at an SDK joint ("ShoulderLeft": "LeftArm"); `bone` itself if it is not
+/// an SDK joint; "" for a hand, which is inside a bone.
 std::string RigBoneAt(const std::string& bone);
 
 /// Throws InputError "MAPPING: line N: expected EXPECTED, found NAME".

@@ -13,7 +13,7 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-/// Joint names of one conversion, as SimplifyJointName makes them; '*' stands for the side.
+/// Joint names of one convention, simplified by SimplifyJointName; '*' stands for the side.
 struct Convention {
   std::array<std::string_view, 2> sides;
   Names hips, spine, neck;
@@ -86,7 +86,7 @@ class Finder {
     }
   }
 
-  /// Of joints that are given their names.
+  /// From joints with explicitly assigned names.
   explicit Finder(const std::vector<std::pair<std::string, int>>& named) {
     for (const auto& [name, joint] : named) index_.emplace(SimplifyJointName(name), joint);
   }
@@ -105,7 +105,7 @@ class Finder {
     return -1;
   }
 
-  /// All that exist, roots first.
+  /// All existing joints of a chain, from the root.
   std::vector<int> Chain(const Names& names) const {
     std::vector<int> chain;
     for (const std::string_view name : names) {
@@ -133,7 +133,7 @@ SourceBones FindByConvention(const Convention& names, const Finder& finder) {
   return bones;
 }
 
-/// The first part that must be there and is not; "" when all are.
+/// The first required part that is missing; "" if none is.
 std::string Missing(const SourceBones& bones) {
   if (bones.hips < 0) return "Hips";
   if (bones.spine.empty()) return "Spine";

@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// What studios and programs call the joint where a part of a limb begins, the surest word first.
+// Common names of the joint where a limb segment starts, the least ambiguous first.
 const Words kArmWords = {"upperarm", "uparm",     "arm",       "shldr",      "humerus",
                          "uarm",     "shldrbend", "lupperarm", "upperarm01", "shoulderjoint"};
 const Words kForeArmWords = {"forearm", "lowerarm", "lowarm",      "loarm",     "elbow",
@@ -31,11 +31,11 @@ const Words kHeadWords = {"head", "skull"};
 constexpr std::string_view kSeparators = ":_ -.|/";
 
 struct Side {
-  std::array<std::string_view, 2> words;  // as names begin or end with it
+  std::array<std::string_view, 2> words;  // prefixes or suffixes
 };
 constexpr std::array<Side, 2> kSides = {Side{{"left", "l"}}, Side{{"right", "r"}}};
 
-/// The joints of one rig by their simplified names without what all begin and end with.
+/// The joints of one rig by simplified name, without common prefix and suffix.
 class AffixedNames {
  public:
   AffixedNames(const SourceMotion& motion, std::string_view prefix, std::string_view suffix) {
@@ -74,7 +74,7 @@ class AffixedNames {
   std::map<std::string, int, std::less<>> index_;
 };
 
-/// The tree of joints.
+/// The joint hierarchy.
 class Tree {
  public:
   explicit Tree(const std::vector<SourceJoint>& joints) : joints_(joints) {}
@@ -86,7 +86,7 @@ class Tree {
     return false;
   }
 
-  /// The lowest joint that both are or are below; -1 for none.
+  /// The lowest common ancestor (possibly one of the two); -1 for none.
   int FindCommon(int a, int b) const {
     for (int j = a; j >= 0; j = Parent(j)) {
       if (j == b || IsBelow(b, j)) return j;
@@ -94,7 +94,7 @@ class Tree {
     return -1;
   }
 
-  /// From below `from` down to `to`, which is below it.
+  /// The joints below `from` down to its descendant `to`.
   std::vector<int> PathBetween(int from, int to) const {
     std::vector<int> path;
     for (int j = to; j >= 0 && j != from; j = Parent(j)) path.push_back(j);
@@ -113,7 +113,7 @@ SideBones FindSide(const AffixedNames& names, size_t side) {
   SideBones bones;
   bones.arm = find(kArmWords);
   bones.collar = find(kCollarWords);
-  // "Shoulder" is the collar where the upper arm has a word of its own.
+  // "Shoulder" is the collar if the upper arm has another name.
   const int shoulder = find({"shoulder", "shoulder01"});
   if (bones.arm < 0) {
     bones.arm = shoulder;
@@ -125,7 +125,7 @@ SideBones FindSide(const AffixedNames& names, size_t side) {
   bones.up_leg = find(kUpLegWords);
   bones.leg = find(kLegWords);
   if (bones.up_leg < 0) {
-    // "Leg" and "Knee": the thigh and the shin; "Hip" and "Knee" likewise.
+    // "Leg" and "Knee" are thigh and shin; so are "Hip" and "Knee".
     const int knee = find({"knee"}), leg = find({"leg"});
     bones.up_leg = leg >= 0 && knee >= 0 ? leg : find({"hip", "hipjoint"});
     if (leg >= 0 && knee >= 0) bones.leg = knee;
@@ -137,7 +137,7 @@ SideBones FindSide(const AffixedNames& names, size_t side) {
   return bones;
 }
 
-/// Whether the limbs hang together as limbs do: names that mean something else do not.
+/// Whether the joints form a valid limb hierarchy; if not, their names mean something else.
 bool AreLimbs(const SideBones& side, const Tree& tree) {
   return side.arm >= 0 && side.fore_arm >= 0 && side.up_leg >= 0 && side.leg >= 0 &&
          side.foot >= 0 && tree.IsBelow(side.fore_arm, side.arm) &&
@@ -150,7 +150,7 @@ void DropStrays(SideBones& side, const Tree& tree) {
   if (side.collar >= 0 && !tree.IsBelow(side.arm, side.collar)) side.collar = -1;
 }
 
-/// Rigify's rigs have no word for it: the last of the spine's bones above the arms.
+/// The head of Rigify's rigs, which is unnamed: the last spine bone above the arms.
 int FindHeadOfSpine(const SourceMotion& motion, const Tree& tree, int chest) {
   int head = -1;
   for (size_t j = 0; j < motion.joints.size(); ++j) {
@@ -177,7 +177,7 @@ std::optional<SourceBones> FindWith(const SourceMotion& motion, const AffixedNam
   const int middle = legs >= 0 && chest >= 0 ? tree.FindCommon(legs, chest) : -1;
   if (middle < 0) return std::nullopt;
   bones.hips = names.FindMiddle(kHipsWords);
-  // The legs may hang on the spine (3ds Max), but it and they must hang on the hips.
+  // The legs may be children of the spine (3ds Max), but both must descend from the hips.
   if (bones.hips < 0 || (bones.hips != middle && !tree.IsBelow(middle, bones.hips))) {
     bones.hips = middle;
   }
@@ -195,9 +195,9 @@ std::optional<SourceBones> FindWith(const SourceMotion& motion, const AffixedNam
   return bones;
 }
 
-/// What many names begin with, up to a separator, those that most do first; "" before all others.
+/// Common prefixes up to a separator, most frequent first; "" before all others.
 std::vector<std::string> CommonPrefixes(const std::vector<SourceJoint>& joints) {
-  constexpr size_t kFewest = 10;  // by hand: joints a person has at least, of one side hardly
+  constexpr size_t kFewest = 10;  // by hand: one side of a person hardly has so many joints
   std::map<std::string, size_t> counts;
   for (const SourceJoint& joint : joints) {
     for (size_t at = 0; at < joint.name.size(); ++at) {
@@ -216,7 +216,7 @@ std::vector<std::string> CommonPrefixes(const std::vector<SourceJoint>& joints) 
   return prefixes;
 }
 
-/// What all names end with, from a separator on ("_1" of a second figure); "" for nothing.
+/// The common suffix of all names, starting at a separator ("_1" of a second figure); "" if none.
 std::string CommonSuffix(const std::vector<SourceJoint>& joints) {
   std::string suffix = joints.empty() ? "" : joints.front().name;
   for (const SourceJoint& joint : joints) {

@@ -59,7 +59,7 @@ BvhLayout SdkLayout(const BoneLengths& lengths) {
   return layout;
 }
 
-/// Pelvis (or whole-body) frame: x from right to left hip, y as near to up the spine as can be.
+/// Pelvis (or whole-body) frame: x from right to left hip, y as close to the spine as possible.
 Quaterniond BodyFrame(const JointArray<Vector3d>& direction) {
   Vector3d left = direction[Index(Joint::kHipLeft)] - direction[Index(Joint::kHipRight)];
   const Vector3d up = direction[Index(Joint::kSpine)];
@@ -71,7 +71,7 @@ Quaterniond BodyFrame(const JointArray<Vector3d>& direction) {
   return Quaterniond(frame);
 }
 
-/// Where the thighs hang from the hips, in the hips' own frame: the mean of what was seen.
+/// Offsets of the thighs in the hip frame: the mean over all sightings.
 std::array<Vector3d, 2> HipOffsets(const SightingLog& seen) {
   std::array<Vector3d, 2> sum = {Vector3d::Zero(), Vector3d::Zero()};
   int count = 0;
@@ -100,12 +100,12 @@ BvhLayout MakeLayout(BvhNames names, const BoneLengths& lengths, const SightingL
                                  : HumanoidLayout(names, lengths, HipOffsets(seen));
 }
 
-/// Angles of R = Rz Rx Ry, degrees.
+/// Euler angles of R = Rz Rx Ry, degrees.
 Vector3d ZxyDegrees(const Quaterniond& rotation) {
   const Eigen::Matrix3d r = rotation.toRotationMatrix();
   const double x = std::asin(std::clamp(r(2, 1), -1.0, 1.0));
   double z, y;
-  if (std::abs(r(2, 1)) > 1.0 - 1e-9) {  // gimbal lock: only z and y together are known
+  if (std::abs(r(2, 1)) > 1.0 - 1e-9) {  // gimbal lock: only their sum or difference is defined
     z = std::atan2(r(1, 0), r(0, 0));
     y = 0.0;
   } else {
@@ -136,15 +136,15 @@ void AppendFrame(const BvhLayout& layout, const Vector3d& root_m,
   }
 }
 
-/// The first frame's time, whoever is in it.
+/// The time of the first frame.
 double FindBegin(const SkeletonSequence& sequence, const SightingLog& seen) {
   return std::min(sequence.frames.front().time_s, seen[0].time_s);
 }
 
-/// A body on its way into a BVH, a frame at a time.
+/// Converts a body to BVH channels, frame by frame.
 class BvhBody {
  public:
-  /// `name`: of the file, for messages.
+  /// `name`: file name for messages.
   BvhBody(EvenSightings sightings, const BvhExportOptions& options, std::string name)
       : name_(std::move(name)),
         options_(options),
@@ -175,9 +175,9 @@ class BvhBody {
   }
 
  private:
-  /// What is surely too long is refused before anything is made of it.
+  /// Refuses recordings that are certainly too long before any conversion.
   void CheckLength() const {
-    constexpr double kLeastBytes = 2.0;  // a digit and what follows it; bytes
+    constexpr double kLeastBytes = 2.0;  // bytes, by the format: a digit and a separator
     size_t channels = 0;
     for (const BvhJoint& joint : layout_.joints) channels += joint.channels.size();
     const double least_bytes = sightings_.Count() * kLeastBytes * static_cast<double>(channels);

@@ -42,7 +42,7 @@ BvhLayout HumanoidLayout(BvhNames names, const BoneLengths& lengths,
       joint.end_sites.push_back(kBvhCentimetres * lengths[turns] * TPoseDirection(turns));
     }
     layout.joints.push_back(joint);
-    // What ends a chain is carried along; whatever else lies there turns the next bone.
+    // End joints follow their parent; other joints drive the next bone.
     (IsEnd(human) ? layout.place[from] : layout.turner[turns]) = i;
   }
   return layout;

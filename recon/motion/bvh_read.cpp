@@ -36,8 +36,8 @@ class Parser {
   }
 
  private:
-  /// The tree is walked with an own stack of open joints: a hostile file of a million nested joints
-  /// must not use up the machine's stack.
+  /// Parses the hierarchy with an explicit stack: a hostile file of a million nested joints must
+  /// not overflow the call stack.
   void ReadJoints() {
     OpenJoint(-1);
     while (!open_.empty()) {
@@ -111,7 +111,7 @@ class Parser {
   }
 
   void ReadEndSite() {
-    scan_.ReadRestOfLine();  // "Site", or a name some exporters put there
+    scan_.ReadRestOfLine();  // "Site", or a name that some exporters write
     scan_.Expect("{");
     scan_.Expect("OFFSET");
     bvh_.joints[Top()].end_sites.push_back(Vector("End Site OFFSET"));
@@ -123,7 +123,7 @@ class Parser {
     scan_.Expect("}");
   }
 
-  /// The number after "NAME:", with or without white space about the colon and in the name.
+  /// The number after "NAME:", with or without white space around the colon and in the name.
   double NumberAfter(const std::string& name, const std::string& what) {
     std::string wanted = Lower(name);
     std::erase(wanted, ' ');
@@ -142,8 +142,9 @@ class Parser {
     }
   }
 
-  /// Frames a second where seconds a frame belong: nobody moves in steps of more than a second.
-  void WarnOfARate() {
+  /// Warns if the frame time looks like a frame rate: motions do not have steps of more than a
+  /// second.
+  void WarnOfRate() {
     constexpr double kSlowest_s = 1.0;  // by hand
     if (bvh_.frame_s <= kSlowest_s) return;
     std::ostringstream said;
@@ -162,10 +163,10 @@ class Parser {
     if (bvh_.frame_s < 1e-4 || bvh_.frame_s > 60.0) {
       scan_.Fail("a frame time between 0.0001 and 60 s", std::to_string(bvh_.frame_s));
     }
-    WarnOfARate();
+    WarnOfRate();
     const size_t channels = bvh_.ChannelCount();
     if (channels == 0) scan_.Fail("at least one channel in the file", "none");
-    // A number takes a digit and what ends it: a header that lies does not fill the memory.
+    // A number takes at least a digit and a separator: a wrong header cannot exhaust memory.
     const size_t most = (scan_.BytesLeft() + 1) / 2;
     bvh_.values.reserve(std::min(static_cast<size_t>(frames) * channels, most));
     while (ReadFrame(channels)) {
@@ -173,7 +174,7 @@ class Parser {
     CheckFrames(static_cast<size_t>(frames));
   }
 
-  /// The next row; false at the end.
+  /// Reads the next row; false at the end.
   bool ReadFrame(size_t channels) {
     const auto words = scan_.ReadWordsOfLine();
     if (words.empty()) return false;
@@ -200,7 +201,7 @@ class Parser {
   TextScanner scan_;
   BvhFile bvh_;
   std::vector<int> open_;
-  size_t root_ = 0;  // the joint that is the root of the skeleton being read
+  size_t root_ = 0;  // root joint of the current skeleton
 };
 
 }  // namespace
@@ -222,7 +223,7 @@ BvhFramePose ComputePose(const BvhFile& bvh, size_t frame) {
   pose.position.reserve(bvh.joints.size());
   pose.rotation.reserve(bvh.joints.size());
   for (const BvhJoint& joint : bvh.joints) {
-    // A position channel replaces that component of OFFSET, for the root and for any other joint.
+    // A position channel replaces its component of OFFSET, for any joint.
     Eigen::Vector3d local = joint.offset;
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     for (const BvhChannel channel : joint.channels) {

@@ -16,21 +16,21 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr size_t kJoints = kJointCount;
-constexpr double kCentimetres = 100.0;  // of a metre; the unit of our own BVH, and of most others
+constexpr double kCentimetres = 100.0;  // per metre; the unit of our own BVH and most others
 
 using Places = std::array<std::optional<Vector3d>, kJoints>;
 
-/// A unit that BVH are written in, and how long legs, hip to ankle, may be in it.
+/// A length unit of BVH files, and the plausible range of leg lengths, hip to ankle, in it.
 struct LengthUnit {
   const char* name;
   double metres;
   double shortest, longest;  // units
 };
 
-/// The first that fits is taken. Legs are 0.45 of the height (anthropometry: NASA-STD-3000, 0.43 to
-/// 0.48 of adults): in centimetres of bodies from 0.85 m, a child of two, on. Below that inches are
-/// likelier, of which adults' legs have 30 to 38, and the CMU's units of 1/0.45 inch, of which they
-/// have 13 to 17.
+/// The first unit that fits is used. Legs are 0.45 of the height (anthropometry: NASA-STD-3000,
+/// 0.43 to 0.48 for adults): in centimetres of bodies from 0.85 m, a two-year-old child, upwards.
+/// Shorter legs are more likely inches (adults' legs: 30 to 38), or CMU's units of 1/0.45 inch (13
+/// to 17).
 constexpr LengthUnit kUnits[] = {{"centimetres", 0.01, 38.5, 150.0},
                                  {"metres", 1.0, 0.15, 1.5},
                                  {"millimetres", 0.001, 150.0, 1500.0},
@@ -38,7 +38,7 @@ constexpr LengthUnit kUnits[] = {{"centimetres", 0.01, 38.5, 150.0},
                                  {"the CMU's units of 1/0.45 inch", 0.0254 / 0.45, 12.0, 24.0},
                                  {"decimetres", 0.1, 1.5, 12.0}};
 
-/// One person of a BVH as 20 joints.
+/// Converts one person of a BVH to 20 joints.
 class Person {
  public:
   Person(BvhFile bvh, const std::string& source, const BoneMapping* mapping)
@@ -114,7 +114,8 @@ class Person {
     }
   }
 
-  /// As far along the line through hips, spine and neck as the standard body's Spine.
+  /// The point on the line through hips, spine and neck at the relative position of the standard
+  /// body's Spine.
   Vector3d AlongSpine(const SourceFrame& frame, const Vector3d& neck) const {
     const BoneLengths& standard = StandardBoneLengths();
     constexpr auto kSpine = Index(Joint::kSpine);
@@ -134,7 +135,8 @@ class Person {
     return neck;
   }
 
-  /// What follows a joint: the middle of its children, or its end site; none where it has neither.
+  /// The end of a joint's segment: the mean of its children, or its end site; none if it has
+  /// neither.
   std::optional<Vector3d> EndOf(const SourceFrame& frame, int joint) const {
     Vector3d sum = Vector3d::Zero();
     int count = 0;
@@ -149,8 +151,8 @@ class Person {
     return Of(frame, joint) + frame.rotation[static_cast<size_t>(joint)] * ends.front();
   }
 
-  /// From `joint` towards `end`, as far as the standard body has bone `last` when `before` is as
-  /// long as `length`.
+  /// A point from `joint` towards `end`, at the standard length of bone `last` scaled by `length`
+  /// over the standard length of `before`.
   static Vector3d Towards(const Vector3d& joint, const Vector3d& end, double length, Joint last,
                           Joint before) {
     const BoneLengths& standard = StandardBoneLengths();

@@ -8,13 +8,13 @@
 
 namespace ossa::recon {
 
-/// A BVH as a motion to be retargeted. Throws InputError where it has no channels, as of several
-/// roots one may: then there are no frames.
+/// A BVH as a motion for retargeting. Throws InputError if it has no channels, as one of several
+/// roots may: then there are no frames.
 SourceMotion ToSourceMotion(BvhFile file, const std::string& source);
 
-/// Calls `take` with the skeleton of each root; it throws InputError for one that is no person. A
-/// prop beside people is passed over with a line in `warnings`; where nobody is a person the first
-/// error is thrown.
+/// Calls `take` with the skeleton of each root; it throws InputError for a root that is not a
+/// person. A prop beside people is skipped with a line in `warnings`; if no root is a person the
+/// first error is thrown.
 void ForEachPerson(BvhFile bvh, const std::string& source, std::vector<std::string>& warnings,
                    const std::function<void(BvhFile)>& take);
 

@@ -7,11 +7,11 @@
 
 namespace ossa::recon {
 
-// The text of a BVH in parts, so that a long one need not be held whole.
+// Writes the text of a BVH in parts, so that long files need not be held in memory.
 
-/// All before the first frame's line.
+/// The text before the first frame.
 std::string BvhHead(const std::vector<BvhJoint>& joints, double frame_s, size_t frames);
-/// The line of a frame: its values in the order of the channels.
+/// Appends the line of a frame: its values in channel order.
 void AppendBvhFrame(std::string& text, std::span<const double> values);
 
 }  // namespace ossa::recon

@@ -52,7 +52,7 @@ void AppendJoint(const std::vector<BvhJoint>& joints, size_t index, std::string 
 }  // namespace
 
 std::string BvhHead(const std::vector<BvhJoint>& joints, double frame_s, size_t frames) {
-  // A step of 1/30 s in six digits is 36 ms wrong after an hour.
+  // With six digits a step of 1/30 s accumulates an error of 36 ms per hour.
   constexpr int kTimeDigits = 10;  // by hand, for rounding
   std::string text = "HIERARCHY\n";
   for (size_t j = 0; j < joints.size(); ++j) {

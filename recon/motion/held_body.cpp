@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 BoneLengths ComputeMedianLengths(const SightingLog& sightings) {
-  constexpr double kShortest_m = 1e-3;  // a bone of no length has no direction in the file; by hand
+  constexpr double kShortest_m = 1e-3;  // shorter bones have no direction in the file; by hand
   BoneLengthEstimator estimator(BoneLengthOptions::ForWholeRecording());
   estimator.Start(MeasureBoneLengths(StandardPosture(RigPose())));
   for (size_t i = 0; i < sightings.size(); ++i) {
@@ -27,7 +27,7 @@ BoneLengths ComputeMedianLengths(const SightingLog& sightings) {
   return lengths;
 }
 
-/// Directions of the bones in a frame; what is missing stays as it was.
+/// Updates bone directions from a frame; missing ones are kept.
 void UpdateDirections(const Sighting& sighting, JointArray<Vector3d>& direction) {
   for (size_t j = 1; j < kJointCount; ++j) {
     const auto& from = sighting.joint[ParentOf(j)];
@@ -36,7 +36,7 @@ void UpdateDirections(const Sighting& sighting, JointArray<Vector3d>& direction)
   }
 }
 
-/// The root's place that puts the body of constant lengths nearest to the joints seen.
+/// The root position that brings the body of constant lengths nearest to the joints seen.
 std::optional<Vector3d> EstimateRoot(const Sighting& sighting, const BoneLengths& lengths,
                                      const JointArray<Vector3d>& direction) {
   JointArray<Vector3d> built;

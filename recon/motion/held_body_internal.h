@@ -5,20 +5,20 @@
 
 namespace ossa::recon {
 
-/// A body through its sightings: bones of constant lengths, the median of each over the recording,
-/// which keep their last direction while they are not seen.
+/// A body over its sightings: bones have constant lengths, the median of each over the recording,
+/// and keep their last direction while unseen.
 class HeldBody {
  public:
-  /// Until the first is known, bones point as they are first seen.
+  /// Before its first sighting a bone has the direction of that sighting.
   explicit HeldBody(const SightingLog& seen);
 
   void Update(const Sighting& sighting);
 
   const BoneLengths& lengths_m() const { return lengths_m_; }
   const JointArray<Eigen::Vector3d>& direction() const { return direction_; }
-  /// Of HipCenter: the whole lies nearest to the joints seen (least squares).
+  /// Position of HipCenter for which the body is nearest to the joints seen (least squares).
   const Eigen::Vector3d& root_m() const { return root_m_; }
-  /// Joints where they are seen; the others at the end of their bone from where their parent is.
+  /// Seen joints at their positions; others at the end of their bone, from their parent.
   Posture WholePosture(const Sighting& sighting) const;
 
  private:

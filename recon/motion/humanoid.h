@@ -7,8 +7,8 @@
 
 namespace ossa::recon {
 
-/// The bones of a humanoid that a depth image tells of, parents before children, as tools for
-/// avatars expect them: each turns about where it begins, branches hang from their common parent.
+/// The humanoid bones that a depth image can show, parents before children, in the form that avatar
+/// tools expect: each rotates about its start, and branches share a common parent.
 enum class HumanBone {
   kHips,
   kSpine,
@@ -34,20 +34,19 @@ enum class HumanBone {
 };
 inline constexpr size_t kHumanBoneCount = 21;  // by definition, of those above
 
-/// What is known of a bone: its names, its parent (-1: none), the joint that it begins in, and the
-/// joint that ends the bone of ours which turns it. Where the two are one, no bone of ours follows:
-/// it is carried along.
+/// A bone's names, parent (-1: none), the joint where it starts, and the end joint of our bone that
+/// drives it. If both joints are equal, no bone of ours drives it: it follows its parent.
 struct HumanBoneInfo {
   std::string_view unity;   // HumanBodyBones
   std::string_view vrm;     // VRM 1.0
-  std::string_view mixamo;  // without its prefix; CMU's name
+  std::string_view mixamo;  // without prefix; also CMU's name
   int parent;
   Joint place;
   Joint turner;
 };
 extern const std::array<HumanBoneInfo, kHumanBoneCount> kHumanBones;
 
-/// Place of a bone in an array of all.
+/// Index of a bone in an array of all bones.
 constexpr size_t Index(HumanBone bone) { return static_cast<size_t>(bone); }
 
 }  // namespace ossa::recon

@@ -13,8 +13,8 @@ namespace {
 constexpr size_t kNumbers = 44;  // a row of the format
 
 /// Joints of the humanoid in the order of a frame's numbers. Names are those of the rig, so that
-/// the known conversions find them. Offsets: Peng et al. 2018 (DeepMimic), humanoid3d; pybullet's
-/// humanoid.urdf has them four times as large.
+/// the known conventions find them. Offsets: Peng et al. 2018 (DeepMimic), humanoid3d; in
+/// pybullet's humanoid.urdf they are four times as large.
 struct Part {
   const char* name;
   int parent;
@@ -55,12 +55,12 @@ Row ReadRow(const nlohmann::json& row, size_t frame, const std::string& source) 
     }
     numbers[i] = row[i].get<double>();
   }
-  // Quaternions stand where the parts' numbers say; each must be one.
+  // Checks that all quaternions are rotations.
   size_t at = 4;
   for (const Part& part : kParts) {
     if (part.numbers == 4) {
       const Eigen::Vector4d q(numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]);
-      // Published clips were blended number by number: lengths of 0.58 and 1.2 are among them.
+      // Published clips were blended component-wise: norms of 0.58 and 1.2 occur.
       constexpr double kShortest = 0.5, kLongest = 2.0;  // norms, ratios to 1; by hand
       if (!(q.norm() > kShortest && q.norm() < kLongest)) {
         throw InputError(where + "a unit quaternion at [" + std::to_string(at) +
@@ -112,7 +112,7 @@ SourceMotion ParseHumanoid3d(const std::string& text, const std::string& source)
   for (const auto& row : json["Frames"]) rows->push_back(ReadRow(row, rows->size(), source));
   SourceMotion motion;
   motion.source = source;
-  motion.frame_s = rows->front()[0];  // the same in all but the last, whose is 0
+  motion.frame_s = rows->front()[0];  // the same in all frames but the last, where it is 0
   if (rows->size() == 1) motion.frame_s = 1.0 / 30.0;
   if (motion.frame_s < 1e-4 || motion.frame_s > 60.0) {
     throw InputError(source + ": Frames[0]: expected a frame time between 0.0001 and 60 s, found " +

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// CMU and HDM05 file names begin with the performer: "05_03" is subject 5, "HDM_bk_01" is bk.
+/// CMU and HDM05 file names start with the performer: "05_03" is subject 5, "HDM_bk_01" is bk.
 std::string ParseSubject(const std::string& stem) {
   const size_t first = stem.find('_');
   if (first == std::string::npos) return "";
@@ -42,7 +42,7 @@ Kind DetectKind(const fs::path& path) {
                                                                    : Kind::kOther;
 }
 
-/// What systems leave beside files ("._walk.bvh") is hidden.
+/// Hidden files of the operating system ("._walk.bvh").
 bool IsHidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
 std::vector<fs::path> MotionFilesIn(const fs::path& folder) {
@@ -66,14 +66,14 @@ std::vector<fs::path> MotionFilesIn(const fs::path& folder) {
 
 constexpr double kUsualAmc_hz = 120.0;  // by convention: CMU's and HDM05's
 
-/// Loads files one after another; each ASF is read once.
+/// Loads files one after another and caches each ASF.
 class Loader {
  public:
   explicit Loader(const MocapOptions& options) : options_(options) {
     if (!options.mapping_file.empty()) mapping_ = ReadBoneMapping(options.mapping_file);
   }
 
-  /// The people of a file: of a BVH with several roots each is a clip.
+  /// The clips of a file: one per root of a BVH.
   std::vector<MotionClip> Load(const fs::path& path) {
     const std::string name = path.string();
     switch (DetectKind(path)) {
@@ -81,7 +81,7 @@ class Loader {
         return LoadBvh(path);
       case Kind::kAmc:
         return {WarnOfRate(MakeClip(FindPerson(LoadAmc(path), mapping()), path), name)};
-      case Kind::kHumanoid3d:  // its joints are known
+      case Kind::kHumanoid3d:  // has a fixed set of joints
         return {MakeClip(FindPerson(ParseHumanoid3d(ReadTextFile(path), name), nullptr), path)};
       case Kind::kOther:
         break;
@@ -89,7 +89,7 @@ class Loader {
     throw InputError(name + ": expected a .bvh, .amc or humanoid3d_*.txt file");
   }
 
-  /// A mapping that names nothing of any file is hardly meant to; "" of any other.
+  /// Warns of a mapping that names no joint of any file; else "".
   std::string WarnOfMapping() const {
     if (!mapping_ || is_mapping_used_) return "";
     return mapping_->file + ": is not used: no file has a joint of a name in it";
@@ -159,7 +159,7 @@ class Loader {
   const MocapOptions& options_;
   std::optional<BoneMapping> mapping_;
   bool is_mapping_used_ = false;
-  bool is_rate_told_ = false;  // once for all files
+  bool is_rate_told_ = false;  // warn once for all files
   std::map<std::string, std::shared_ptr<const AcclaimSkeleton>> skeletons_;
 };
 

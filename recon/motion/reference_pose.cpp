@@ -29,7 +29,7 @@ const Quaterniond& TurnOf(const SourceFrame& frame, int joint) {
   return frame.rotation[static_cast<size_t>(joint)];
 }
 
-/// How far legs and trunk are stretched away from each other: 4 when quite.
+/// How far legs and trunk are stretched in opposite directions; 4 at most.
 double MeasureStretch(const SourceFrame& frame, const SourceBones& bones) {
   const Vector3d trunk = TrunkDirection(frame.position, bones);
   double stretch = 0.0;
@@ -48,8 +48,8 @@ void RequireTrunk(const SourceMotion& motion, const SourceBones& bones, const So
   throw InputError(motion.source + ": hips or shoulders coincide, expected a person");
 }
 
-/// Which way the second of two bones leaves the first, in the axes of each bone's joint: where
-/// elbows bend to. Means over the frames, as long as the sine of the bend.
+/// Directions in which a limb's second bone deviates from the first, in the axes of each bone's
+/// joint: the bending direction. Means over the frames, weighted by the sine of the bend.
 struct Bend {
   Vector3d by_upper = Vector3d::Zero();
   Vector3d by_lower = Vector3d::Zero();
@@ -69,7 +69,7 @@ Bend MeasureBend(const SourceMotion& motion, const std::vector<SourceFrame>& fra
   return bend;
 }
 
-/// Lays the rig on the reference frame, bone by bone.
+/// Aligns the rig with the reference frame, bone by bone.
 class Layer {
  public:
   Layer(const SourceMotion& motion, const SourceBones& bones, const Quaterniond& world_from_file,

@@ -20,24 +20,24 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// Wrists bend less than about 70° any way; markers of the hand are few and jump. The angle between
-// forearm and hand is softly kept below this.
+// Wrists bend less than about 70° in any direction, and hand markers are few and noisy. The angle
+// between forearm and hand is smoothly limited to this.
 constexpr double kWristLimit_rad = 50.0 * kDegree;  // anthropometry, with a margin; by hand
 
-/// Axes of a bone: its direction, and how far it can be kept, the front of the body (+z). An elbow
-/// turned by the bone's rotation bends forwards in a T-pose, an A-pose and with arms hanging, so
-/// the twist of different rest poses agrees; only an arm stretched forward has none to show.
+/// Axes of a bone: its direction, and the front of the body (+z) as far as possible. An elbow bends
+/// forwards about these axes in a T-pose, an A-pose and with arms hanging, so the axial rotations
+/// of different rest poses are consistent; only an arm stretched forwards is degenerate.
 Eigen::Matrix3d BoneFrame(const Vector3d& direction) {
   return FrameAlong(direction, Vector3d::UnitZ());
 }
 
-/// Turns an axis of the file upright.
+/// Rotates an up axis of the file to y.
 Quaterniond Upright(const Vector3d& up) {
   return up == Vector3d::UnitY() ? Quaterniond::Identity() : SmallestTurn(up, Vector3d::UnitY());
 }
 
-/// Rotation from the file's axes to ours (y up, facing +z, left +x), seen in the rest pose. Within
-/// 25° of a right angle it is one: a rest pose is never built that askew on purpose.
+/// Rotation from the file's axes to ours (y up, facing +z, left +x), from the rest pose. Within 25°
+/// of a right angle it is snapped: no rest pose is intentionally that oblique.
 Quaterniond WorldFromFile(const std::vector<Vector3d>& rest, const SourceBones& bones,
                           const std::string& source) {
   const auto at = [&](int joint) { return rest[static_cast<size_t>(joint)]; };
@@ -60,16 +60,16 @@ Quaterniond WorldFromFile(const std::vector<Vector3d>& rest, const SourceBones& 
                      "rest frame in a mapping file)");
   }
   const Vector3d left = snapped(flat);
-  Eigen::Matrix3d file_axes;  // rows: our axes in the file's
+  Eigen::Matrix3d file_axes;  // rows: our axes in file axes
   file_axes << left.transpose(), up.transpose(), left.cross(up).transpose();
   return Quaterniond(file_axes).normalized();
 }
 
 struct BoneSource {
   int joint = -1;       // -1: the bone follows its rig parent
-  int next_joint = -1;  // with `mix`: the rotation lies between the two joints'
+  int next_joint = -1;  // with `mix`: the rotation is interpolated between both joints
   double mix = 0.0;
-  Quaterniond source_from_rig = Quaterniond::Identity();  // lays the rig's rest on the source's
+  Quaterniond source_from_rig = Quaterniond::Identity();  // aligns the rest poses
 };
 
 class Retargeter {
@@ -120,7 +120,7 @@ class Retargeter {
     return pose;
   }
 
-  /// Places of the source's joints in our axes.
+  /// Positions of the source's joints in our axes.
   std::vector<Vector3d> ComputePlaces(const SourceFrame& frame) const {
     std::vector<Vector3d> places = frame.position;
     for (Vector3d& p : places) p = world_from_file_ * p;
@@ -131,15 +131,15 @@ class Retargeter {
  private:
   Vector3d Rest(int joint) const { return rest_[static_cast<size_t>(joint)]; }
 
-  /// World rotation of a source joint from its rest, in our axes.
+  /// World rotation of a source joint relative to its rest, in our axes.
   Quaterniond Turn(const SourceFrame& frame, int joint) const {
     const auto j = static_cast<size_t>(joint);
     return world_from_file_ * frame.rotation[j] * rest_frame_.rotation[j].conjugate() *
            rest_from_file_.conjugate();
   }
 
-  /// The file's axes as the rest pose has them, and as the motion: exporters may write a figure
-  /// that rests along z and stands along y.
+  /// Determines the file's axes from the rest pose and from the motion: some exporters write
+  /// figures whose rest pose is along z but whose motion is along y.
   void FindAxes(const std::vector<Vector3d>& rest) {
     world_from_file_ = rest_from_file_ = WorldFromFile(rest, bones_, motion_.source);
     const Vector3d rest_up = rest_from_file_.conjugate() * Vector3d::UnitY();
@@ -149,7 +149,7 @@ class Retargeter {
     if (up.by_motion && up.axis.dot(rest_up) < kSame) world_from_file_ = Upright(up.axis);
   }
 
-  /// Spreads a chain of any number of joints over three rig bones by their place along it.
+  /// Maps a chain of any number of joints to three rig bones by relative position.
   void MapChain(int base, const std::vector<int>& chain, const std::array<const char*, 3>& names) {
     for (size_t k = 0; k < names.size(); ++k) {
       const double place = static_cast<double>((k + 1) * chain.size()) / 3.0;  // in (0, size]
@@ -178,12 +178,12 @@ class Retargeter {
     MapLimb(name + "ForeArm", side.fore_arm, EndOf(side.fore_arm, side.hand));
     MapLimb(name + "UpLeg", side.up_leg, EndOf(side.up_leg, side.leg));
     MapLimb(name + "Leg", side.leg, EndOf(side.leg, side.foot));
-    // Soles are flat on the floor in every rest pose: the feet need no alignment.
+    // Soles are flat on the floor in every rest pose, so feet need no alignment.
     sources_[RigBone(name + "Foot")].joint = side.foot;
     sources_[RigBone(name + "ToeBase")].joint = side.toe >= 0 ? side.toe : side.foot;
   }
 
-  /// Rest place of the far end of a joint's segment.
+  /// Rest position of the far end of a joint's segment.
   Vector3d EndOf(int joint, int next) const {
     return rest_from_file_ * FindEnd(motion_, rest_frame_, joint, next);
   }
@@ -239,7 +239,7 @@ class Retargeter {
                   (head("LeftLeg") - head("LeftFoot")).norm());
   }
 
-  /// The middle of the hip joints is where the source has it, scaled.
+  /// The root position that puts the midpoint of the hip joints where the source has it, scaled.
   Vector3d ComputeRoot(const SourceFrame& frame, const RigPose& pose) const {
     const auto at = [&](int joint) { return frame.position[static_cast<size_t>(joint)]; };
     const Vector3d hips =
@@ -252,9 +252,9 @@ class Retargeter {
 
   const SourceMotion& motion_;
   const SourceBones& bones_;
-  Quaterniond world_from_file_;  // of the motion
-  Quaterniond rest_from_file_;   // of the rest pose
-  std::string doubt_;            // of which axis is up
+  Quaterniond world_from_file_;  // for the motion
+  Quaterniond rest_from_file_;   // for the rest pose
+  std::string doubt_;            // warning about the up axis
   SourceFrame rest_frame_;       // file axes
   std::vector<Vector3d> rest_;   // our axes, file units
   std::array<BoneSource, kRigBoneCount> sources_;
@@ -278,8 +278,8 @@ void FollowArmsWithCollars(RigPose& pose) {
     const size_t arm = RigBone(name + "Arm");
     const Vector3d arm_rest = (rest.tail_m[arm] - rest.head_m[arm]).normalized();
     const Vector3d direction = chest.conjugate() * (pose.world_from_rest[arm] * arm_rest);
-    // The clavicle's lift reaches 30° with the arm upright, and its pull forwards 20° with the arm
-    // stretched in front or across the chest; backwards 10°.
+    // The clavicle rises by 30° for an upright arm, and rotates forwards by 20° for an arm
+    // stretched in front or across the chest; backwards by 10°.
     const double elevation = std::asin(std::clamp(direction.y(), -1.0, 1.0));
     const double lift = 30.0 * kDegree * SmoothStep(-50.0 * kDegree, 90.0 * kDegree, elevation);
     const double level = std::cos(elevation);
@@ -297,7 +297,7 @@ void FollowArmsWithCollars(RigPose& pose) {
 }
 
 void SetOnFloor(MotionClip& clip, double limit_m) {
-  // Soles are below ankle and toe joints by the rest pose's heights.
+  // Soles are below ankle and toe joints by their heights in the rest pose.
   const Posture rest = StandardPosture(RigPose());
   const double rest_root = StandardRigRest().head_m[0].y();
   std::vector<double> lowest;

@@ -39,7 +39,7 @@ void SightingLog::Append(const BodyRecord& body, double time_s) {
     Eigen::Map<Vector3d>(&packed.position_m[3 * j]) = joint->position_m;
   }
   latest_.push_back(packed);
-  // The last one stays in memory: the next is compared with it.
+  // The last sighting stays in memory: the next one is compared with it.
   if (latest_.size() <= kBlock) return;
   if (!file_.is_open()) file_ = UnnamedFile(folder_);
   file_.WriteAt(in_file_ * sizeof(Packed), latest_.data(), kBlock * sizeof(Packed));
@@ -55,7 +55,7 @@ SightingLog SightingLog::Until(double time_s) const {
   return until;
 }
 
-void SightingLog::LeaveDisk() { *this = Until(std::numeric_limits<double>::infinity()); }
+void SightingLog::LoadIntoMemory() { *this = Until(std::numeric_limits<double>::infinity()); }
 
 Sighting SightingLog::operator[](size_t index) const { return Unpacked(PackedAt(index)); }
 
@@ -99,7 +99,7 @@ EvenSightings::EvenSightings(const SightingLog& seen, double begin_s, double ste
     : seen_(seen), begin_s_(begin_s), step_s_(step_s) {}
 
 double EvenSightings::Count() const {
-  // Times of six decimals are a few milliseconds short of the step's after an hour.
+  // Times with six decimals lag a few milliseconds behind the steps after an hour.
   constexpr double kRounded_steps = 0.1;
   return std::floor((seen_[seen_.size() - 1].time_s - begin_s_) / step_s_ + kRounded_steps) + 1.0;
 }

@@ -14,7 +14,7 @@ SourceFrame FrameAt(const SourceMotion& motion, double time_s) {
   const double clamped = std::clamp(place, 0.0, last);
   const auto index = static_cast<size_t>(std::floor(clamped + 1e-3));
   const double fraction = clamped - static_cast<double>(index);
-  // Files print 1/30 s as 0.0333333: within a thousandth of a frame they are the same.
+  // Files print 1/30 s as 0.0333333: times within a thousandth of a frame are equal.
   SourceFrame frame = motion.frame(index);
   if (fraction < 1e-3 || index + 1 >= motion.frame_count) return frame;
   const SourceFrame next = motion.frame(index + 1);
@@ -30,7 +30,7 @@ bool HasStep(const SourceMotion& motion, double step_s) {
 }
 
 size_t ResampledFrameCount(const SourceMotion& motion, double step_s) {
-  constexpr double kMost_s = 36000.0;  // by hand: ten hours of poses are a gigabyte at 30 Hz
+  constexpr double kMost_s = 36000.0;  // by hand: ten hours take a gigabyte at 30 Hz
   const double length_s = static_cast<double>(motion.frame_count - 1) * motion.frame_s;
   if (length_s > kMost_s) {
     throw InputError(fmt::format(

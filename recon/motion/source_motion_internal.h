@@ -7,7 +7,7 @@
 
 namespace ossa::recon {
 
-/// A joint of a performer's skeleton as a file has it, named by the segment it turns.
+/// A joint of a performer's skeleton in a file, named after the segment that it rotates.
 struct SourceJoint {
   std::string name;
   int parent = -1;                                   // parents before children
@@ -15,14 +15,14 @@ struct SourceJoint {
   std::vector<Eigen::Vector3d> end_sites;            // from this joint, file units
 };
 
-/// World places and rotations of every joint, file units; rotations take the zero pose to the
-/// world.
+/// World positions and rotations of all joints, file units; rotations are relative to the zero
+/// pose.
 struct SourceFrame {
   std::vector<Eigen::Vector3d> position;
   std::vector<Eigen::Quaterniond> rotation;
 };
 
-/// What every mocap format comes down to before retargeting.
+/// The common representation of mocap formats for retargeting.
 struct SourceMotion {
   std::string source;  // file, for messages
   std::vector<SourceJoint> joints;
@@ -31,15 +31,16 @@ struct SourceMotion {
   std::function<SourceFrame(size_t)> frame;
 };
 
-/// Frames at `step_s`, the first at time 0; positions linearly, rotations by slerp.
+/// The motion sampled at a time from the first frame; positions interpolated linearly, rotations by
+/// slerp.
 SourceFrame FrameAt(const SourceMotion& motion, double time_s);
-/// Whether the motion has that step already; files print 1/30 s as 0.0333333.
+/// Whether the motion already has that frame time; files print 1/30 s as 0.0333333.
 bool HasStep(const SourceMotion& motion, double step_s);
-/// Throws InputError for a motion of more than ten hours: what lies between the frames of one whose
-/// frame time is a rate would fill the memory.
+/// Throws InputError for a motion of more than ten hours: if a file's frame time is actually a
+/// rate, interpolation would exhaust memory.
 size_t ResampledFrameCount(const SourceMotion& motion, double step_s);
 
-/// Zero-pose place of every joint.
+/// Zero-pose position of every joint.
 std::vector<Eigen::Vector3d> ZeroPose(const std::vector<SourceJoint>& joints);
 
 }  // namespace ossa::recon

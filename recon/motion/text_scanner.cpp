@@ -37,9 +37,9 @@ std::string InQuotes(std::string_view found) {
 
 TextScanner::TextScanner(std::string text, std::string source)
     : text_(std::move(text)), source_(std::move(source)) {
-  // Some exporters begin with a UTF-8 byte order mark.
+  // Some exporters write a UTF-8 byte order mark.
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
-  // Others end lines with \r alone.
+  // Others end lines with \r only.
   for (size_t at = text_.find('\r'); at != std::string::npos; at = text_.find('\r', at + 1)) {
     if (at + 1 == text_.size() || text_[at + 1] != '\n') text_[at] = '\n';
   }
@@ -136,7 +136,7 @@ double TextScanner::ToNumber(std::string_view word, const std::string& what) con
   const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = end == digits.data() + digits.size();
-  if (error == std::errc::result_out_of_range && whole) value = 0.0;  // 1e-400; huge fails below
+  if (error == std::errc::result_out_of_range && whole) value = 0.0;  // underflow: 1e-400
   if ((error != std::errc() && error != std::errc::result_out_of_range) || !whole ||
       digits.empty()) {
     Fail(what + " (a number)", word);

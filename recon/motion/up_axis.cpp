@@ -17,13 +17,13 @@ Vector3d UnitOrZero(const Vector3d& v) {
   return length > 1e-9 ? Vector3d(v / length) : Vector3d::Zero();
 }
 
-constexpr double kStands = 0.7;  // cosine of the mean, by hand: bows and crouches between
+constexpr double kStands = 0.7;  // cosine of the mean direction, by hand: allows bows and crouches
 
-/// What the sampled frames say of how the figure stands.
+/// Statistics of the figure's stance over sampled frames.
 struct Stance {
-  Vector3d trunk = Vector3d::Zero();          // mean of the directions
-  double least_z = 1.0;                       // of the trunk's direction in any frame
-  double lowest_y = 1e300, lowest_z = 1e300;  // of all joints, in leg lengths
+  Vector3d trunk = Vector3d::Zero();          // mean direction
+  double least_z = 1.0;                       // of the trunk's direction, over all frames
+  double lowest_y = 1e300, lowest_z = 1e300;  // over all joints, in leg lengths
 };
 
 Stance MeasureStance(const SourceMotion& motion, const SourceBones& bones) {
@@ -44,7 +44,8 @@ Stance MeasureStance(const SourceMotion& motion, const SourceBones& bones) {
   return stance;
 }
 
-/// Feet stand where z is 0, and y says of no floor: nothing comes near 0 without going through.
+/// Whether feet stand at z = 0, and there is no floor at y = 0: joints are either far from it or
+/// pass through it.
 bool HasFloorAtZ0(const Stance& stance) {
   constexpr double kAnkleHigh = 0.3;  // ratio to the leg, by hand: standing ankles are at 0.1
   constexpr double kThrough = -0.06;  // leg lengths, by hand: 5 cm of an adult
@@ -101,11 +102,12 @@ bool IsRestPose(const std::vector<Vector3d>& position, const SourceBones& bones)
   return true;
 }
 
-bool DoesStand(const Vector3d& mean_trunk, const Vector3d& up) {
+bool IsUpright(const Vector3d& mean_trunk, const Vector3d& up) {
   return mean_trunk.dot(up) > kStands;
 }
 
-std::string DoubtOfUp(const std::string& source, const Vector3d& mean_trunk, const Vector3d& up) {
+std::string DescribeUpDoubt(const std::string& source, const Vector3d& mean_trunk,
+                            const Vector3d& up) {
   constexpr double kLeans = 0.5;  // cosine, by hand: 60 degrees, as nobody stands
   const double along = mean_trunk.dot(up);
   const bool is_clear = along < 0.0 || mean_trunk.norm() > kStands;
@@ -125,13 +127,13 @@ Vector3d NearestAxis(const Vector3d& direction) {
 UpAxis FindUpAxis(const SourceMotion& motion, const SourceBones& bones,
                   const std::optional<Vector3d>& rest_up) {
   const Stance stance = MeasureStance(motion, bones);
-  if (DoesStand(stance.trunk, Vector3d::UnitY())) return {Vector3d::UnitY(), true, ""};
+  if (IsUpright(stance.trunk, Vector3d::UnitY())) return {Vector3d::UnitY(), true, ""};
   const Vector3d up = rest_up.value_or(Vector3d::UnitY());
-  const bool along_z = DoesStand(stance.trunk, Vector3d::UnitZ()) && stance.least_z > 0.0;
+  const bool along_z = IsUpright(stance.trunk, Vector3d::UnitZ()) && stance.least_z > 0.0;
   if (along_z && (up == Vector3d::UnitZ() || HasFloorAtZ0(stance))) {
     return {Vector3d::UnitZ(), true, ""};
   }
-  return {up, false, DoubtOfUp(motion.source, stance.trunk, up)};
+  return {up, false, DescribeUpDoubt(motion.source, stance.trunk, up)};
 }
 
 }  // namespace ossa::recon

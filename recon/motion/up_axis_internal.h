@@ -19,33 +19,34 @@ Eigen::Vector3d TrunkDirection(const std::vector<Eigen::Vector3d>& position,
 /// Length of a leg, hip to ankle, the mean of both sides.
 double LegLength(const std::vector<Eigen::Vector3d>& position, const SourceBones& bones);
 
-/// Whether these joint positions are a pose as rigs rest in (T, A or hanging arms): legs and trunk
-/// stretched away from each other, shoulders above hips the same way round. The zero angles of some
-/// studios (Rokoko, Bandai-Namco, LAFAN1), whose bones all lie along one axis, are none.
+/// Whether these joint positions are a typical rest pose (T, A or hanging arms): legs and trunk
+/// stretched in opposite directions, and shoulders above hips with the same orientation. In the
+/// zero poses of some studios (Rokoko, Bandai-Namco, LAFAN1) all bones are along one axis; those
+/// are not rest poses.
 bool IsRestPose(const std::vector<Eigen::Vector3d>& position, const SourceBones& bones);
 
-/// Which axis of the file's world points up. y is, as the rules of BVH have it, unless the figure
-/// stands along z for most of the motion and either its rest pose (`rest_up`, an axis or none)
-/// does, too, or the floor is where z is 0. Where the motion lies or stands on its head all the
-/// time, as the rest pose says, else y, and `doubt` says so.
+/// The up axis of the file's world. It is y, by the rules of BVH, unless the figure stands along z
+/// for most of the motion and either its rest pose (`rest_up`, an axis or none) does, too, or the
+/// floor is at z = 0. If the figure lies or stands on its head throughout, the rest pose decides,
+/// else y with a warning in `doubt`.
 struct UpAxis {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
-  bool by_motion = false;  // the motion itself shows it
-  std::string doubt;       // for people to see; "" for none
+  bool by_motion = false;  // determined by the motion
+  std::string doubt;       // warning for the user; "" for none
 };
 UpAxis FindUpAxis(const SourceMotion& motion, const SourceBones& bones,
                   const std::optional<Eigen::Vector3d>& rest_up);
 
-/// Whether a trunk that points so in the mean of its frames (length 1 or less) stands along an
+/// Whether a trunk with this mean direction over its frames (length 1 or less) stands along an
 /// axis.
-bool DoesStand(const Eigen::Vector3d& mean_trunk, const Eigen::Vector3d& up);
+bool IsUpright(const Eigen::Vector3d& mean_trunk, const Eigen::Vector3d& up);
 
-/// What is said of a body whose trunk, in the mean of its frames (length 1 or less), clearly does
-/// not point along the axis that is taken as up; "" of any other. `source` is the file.
-std::string DoubtOfUp(const std::string& source, const Eigen::Vector3d& mean_trunk,
-                      const Eigen::Vector3d& up);
+/// The warning for a body whose mean trunk direction (length 1 or less) is clearly not along the
+/// assumed up axis; else "". `source` is the file.
+std::string DescribeUpDoubt(const std::string& source, const Eigen::Vector3d& mean_trunk,
+                            const Eigen::Vector3d& up);
 
-/// The axis that the direction is nearest to, with its sign.
+/// The signed axis nearest to the direction.
 Eigen::Vector3d NearestAxis(const Eigen::Vector3d& direction);
 
 }  // namespace ossa::recon

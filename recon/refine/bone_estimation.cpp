@@ -40,7 +40,7 @@ Eigen::RowVectorXf EncodeBoneLengths(const BoneLengths& lengths_m) {
 }
 
 BoneLengths EstimateBones(const QuantisedPerceptron& network, const ProposedPerson& person) {
-  // Logarithm: whatever the network says, nobody is a giant; logarithm of a ratio
+  // Bound of the logarithm of a ratio, whatever the network predicts
   constexpr double kFarthest = 1.0;
   RowMatrix features(2, kBoneFeatures);
   features.row(0) = ComputeBoneFeatures(person);

@@ -8,10 +8,12 @@
 
 namespace ossa::recon {
 
-/// How long a person's bones are, estimated by a network from where the refinement cascade puts the
-/// joints in one frame. What is measured between two joints is longer or shorter than the bone, the
-/// more so the less of it is seen; how it errs in which pose, and which bones go with which, is
+/// Estimates a person's bone lengths with a network, from the joints of the refinement cascade in
+/// one frame. The distance between two estimated joints differs from the bone length, the more the
+/// less is visible. These errors depend on the pose, and bone lengths are correlated; both are
 /// learned from rendered people of many shapes.
+///
+/// The end joints of estimated bones: the left one stands for both of a pair.
 
 /// The joints in which estimated bones end: of a pair the left one stands for both.
 inline constexpr std::array<Joint, 11> kEstimatedBones = {
@@ -19,21 +21,21 @@ inline constexpr std::array<Joint, 11> kEstimatedBones = {
     Joint::kElbowLeft, Joint::kWristLeft,      Joint::kHandLeft, Joint::kHipLeft,
     Joint::kKneeLeft,  Joint::kAnkleLeft,      Joint::kFootLeft};
 
-/// What the network reads: where all joints lie from the middle; of each bone the logarithm of its
-/// length as it lies there; how confident joints are and which are seen; ProposedPerson::where_m.
+/// Network inputs: all joints relative to the middle; the logarithm of each bone's measured length;
+/// confidence and visibility of the joints; ProposedPerson::where_m.
 inline constexpr int kBoneFeatures = 3 * kJointCount + (kJointCount - 1) + 2 * kJointCount + 3;
 Eigen::RowVectorXf ComputeBoneFeatures(const ProposedPerson& person);
 
-/// The network's outputs: of each estimated bone the logarithm of its length over the standard one,
-/// in steps of kBoneStep.
+/// Network outputs: the logarithm of each estimated bone's length relative to the standard one, in
+/// units of kBoneStep.
 inline constexpr double kBoneStep = 0.1;
 Eigen::RowVectorXf EncodeBoneLengths(const BoneLengths& lengths_m);
 
-/// The mean of the network's estimates for the person and for the mirror image.
+/// The mean of the network's estimates for the person and its mirror image.
 BoneLengths EstimateBones(const QuantisedPerceptron& network, const ProposedPerson& person);
 
-/// What the networks of a bone-conditioned stage read: what others read, then EncodeBoneLengths of
-/// the person's bones.
+/// Inputs of the networks of a bone-conditioned stage: those of other stages, then
+/// EncodeBoneLengths of the person's bones.
 inline constexpr int kBoneConditionedFeatures =
     kStageFeatures + static_cast<int>(kEstimatedBones.size());
 

@@ -9,10 +9,10 @@
 namespace ossa::recon {
 namespace {
 
-// By hand, a joint's own breadth: noise at a silhouette must not put a limb into free space.
+// By hand, the radius of a joint: noise at a silhouette must not put a limb into free space.
 constexpr double kBreadth_m = 0.02;
 
-// The image around one joint: how far what is seen at a pixel lies behind it.
+// The image around one joint, as depth differences from it.
 class Surroundings {
  public:
   Surroundings(const Eigen::Vector3d& joint_in_camera, const depth::DepthFrame& depth)
@@ -21,7 +21,8 @@ class Surroundings {
         centre_(depth::Project(depth.camera, joint_in_camera)),
         pixels_per_m_(depth.camera.fx / joint_in_camera.z()) {}
 
-  // Surface minus joint along z, metres, `off_m` beside the joint; none without a reading.
+  // Depth of the surface minus depth of the joint, metres, at offset `off_m` from the joint; none
+  // without a reading.
   std::optional<double> GapAt(const Eigen::Vector2d& off_m) const {
     const Eigen::Vector2d at = centre_ + pixels_per_m_ * off_m;
     if (!(at.cwiseAbs().maxCoeff() < 1e5)) return std::nullopt;
@@ -34,7 +35,7 @@ class Surroundings {
     return centre_ + pixels_per_m_ * off_m;
   }
 
-  // One pixel, or a centimetre where pixels are finer.
+  // The size of a pixel, but at least a centimetre.
   double step_m() const { return std::max(0.01, 1.0 / pixels_per_m_); }
 
  private:
@@ -48,19 +49,20 @@ bool Hides(const std::optional<double>& gap_m, const FreeSpaceOptions& options) 
   return gap_m && *gap_m <= options.before_m;
 }
 
-// Off the joint: across the line of sight, and farther along it.
+// Displacement from the joint: perpendicular to the line of sight, and backwards along it.
 struct Cover {
   Eigen::Vector2d across_m = Eigen::Vector2d::Zero();
   double behind_m = 0.0;
   double way_m = 1e9;
 };
 
-// How far a joint must go back to be behind what has this gap to it.
+// How far a joint must move back to be behind a surface with this gap.
 double WayBehind(double gap_m, const FreeSpaceOptions& options) {
   return std::max(0.0, gap_m + options.skin_m);
 }
 
-// The nearest place that hides the joint, on circles around it: beside it, or farther back.
+// The nearest position that hides the joint, searched on circles around it: beside it, or farther
+// back.
 Cover NearestCover(const Surroundings& around, const FreeSpaceOptions& options) {
   const double step_m = around.step_m();
   Cover best;
@@ -105,7 +107,7 @@ Eigen::Vector3d MoveOutOfFreeSpace(const Eigen::Vector3d& joint_in_camera,
   if (const double across_m = cover.across_m.norm(); across_m > 0.0) {
     const Eigen::Vector2d within_m = cover.across_m * (1.0 + options.inwards_m / across_m);
     const auto gap_m = around.GapAt(within_m);
-    // Not where what hides it is thin.
+    // Not behind thin occluders.
     if (gap_m && WayBehind(*gap_m, options) <= cover.behind_m + options.before_m)
       cover = {within_m, WayBehind(*gap_m, options), cover.way_m};
   }

@@ -7,26 +7,25 @@ namespace ossa::recon {
 
 // Constants: chosen on eight rendered performances of validation subjects.
 
-/// How far a joint may be moved to satisfy the free-space constraint, metres, > 0. On eight
-/// rendered performances of validation subjects inwards_m was tried from 0 to 6 cm, before_m from 4
-/// to 15.
+/// Limits of moving a joint to satisfy the free-space constraint, metres, > 0. On eight rendered
+/// performances of validation subjects inwards_m was varied from 0 to 6 cm, before_m from 4 to 15.
 struct FreeSpaceOptions {
-  double before_m = 0.08;   // a joint is in free space if every surface around is this much farther
-  double reach_m = 0.4;     // how far across the line of sight a hidden place is searched
-  double inwards_m = 0.03;  // a limb's axis lies this far within its silhouette
-  double skin_m = 0.02;     // and so far behind the surface
+  double before_m = 0.08;   // free space: every surface around is this much farther away
+  double reach_m = 0.4;     // search radius perpendicular to the line of sight
+  double inwards_m = 0.03;  // distance of a limb's axis from its silhouette
+  double skin_m = 0.02;     // ... and behind its surface
 };
 
-/// Ours, the free-space constraint (as occupancy grids carve space, Moravec and Elfes 1985): a
-/// joint that the camera does not see is behind something or outside the image. Where the camera
-/// sees through it to a surface farther away it cannot be. Returns the nearest place across the
-/// line of sight that something hides, or `joint_in_camera` (metres) itself where it is hidden
-/// already, where the image cannot tell (its border, no reading) or where nothing is within reach.
+/// Ours, the free-space constraint (as occupancy grids carve space, Moravec and Elfes 1985): an
+/// unseen joint is behind something or outside the image. It cannot be where the camera sees a
+/// surface farther away. Returns the nearest hidden position perpendicular to the line of sight, or
+/// `joint_in_camera` (metres) itself if it is already hidden, if the image cannot tell (its border,
+/// no reading), or if nothing is within reach.
 Eigen::Vector3d MoveOutOfFreeSpace(const Eigen::Vector3d& joint_in_camera,
                                    const depth::DepthFrame& depth,
                                    const FreeSpaceOptions& options = {});
 
-/// Whether the camera sees through this place to something farther away.
+/// Whether the camera sees past this position to something farther away.
 bool IsInFreeSpace(const Eigen::Vector3d& joint_in_camera, const depth::DepthFrame& depth,
                    const FreeSpaceOptions& options = {});
 

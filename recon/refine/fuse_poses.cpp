@@ -5,8 +5,8 @@
 namespace ossa::recon {
 namespace {
 
-// The network's share in a joint that both put `apart_m` from each other, by the errors that are
-// expected of both.
+// Weight of the network's position for a joint that both estimates place `apart_m` from each other,
+// by their expected errors.
 double ShareOfNetwork(double before_m, double network_m, double apart_m,
                       const FusionOptions& options) {
   if (apart_m > options.contradiction * (before_m + network_m)) {

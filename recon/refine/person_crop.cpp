@@ -12,20 +12,20 @@ namespace {
 
 // Constants: chosen by hand; part of every pose network.
 
-constexpr double kNearer_m = 0.03;   // by so much, something that is not the person is before them
-constexpr double kNearest_m = 0.2;   // what is nearer is beside the sensor
-constexpr int kMiddlePixels = 4096;  // at least, where there are: more of them change nothing
+constexpr double kNearer_m = 0.03;   // other surfaces nearer by this occlude the person
+constexpr double kNearest_m = 0.2;   // nearer points are outside the view: beside the sensor
+constexpr int kMiddlePixels = 4096;  // sample at least as many if available: more change nothing
 constexpr int kTapsASide = 2;
 static_assert(kTapsASide * kTapsASide == kCropTaps);
 
-// Whether none of the eight pixels from `first` on is the person's.
+// Whether none of the eight pixels from `first` on belongs to the person.
 bool AreOthers(std::span<const uint8_t> is_person, size_t first) {
   uint64_t eight = 0;
   std::memcpy(&eight, is_person.data() + first, sizeof(eight));
   return eight == 0;
 }
 
-// The mean of the person's surface; nothing without any.
+// The mean of the person's surface; none without any.
 std::optional<Eigen::Vector3d> FindMiddle(const depth::DepthFrame& frame,
                                           std::span<const uint8_t> is_person) {
   constexpr size_t kEight = sizeof(uint64_t);
@@ -51,12 +51,13 @@ std::optional<Eigen::Vector3d> FindMiddle(const depth::DepthFrame& frame,
   return sum_m / static_cast<double>(read);
 }
 
-// The taps lie in a plane across the line of sight, row by row from above.
+// The taps are sampling points in a plane perpendicular to the line of sight, row by row from the
+// top.
 constexpr int kTapSide = kCropSide * kTapsASide;
 constexpr double kTap_m = kCropCell_m / kTapsASide;
 constexpr double kFirstTap_m = (kTapSide - 1) / 2.0 * kTap_m;
 
-// What of their places is the same in every row, camera space.
+// The part of their positions that is the same in every row, camera space.
 struct TapColumns {
   std::array<double, kTapSide> x_m, y_m, z_m;
 
@@ -69,13 +70,13 @@ struct TapColumns {
   }
 };
 
-// A row of taps: how far each lies from the camera, and the pixel that sees it, -1 for none.
+// A row of taps: the distance of each from the camera, and its pixel, -1 for none.
 struct TapRow {
   std::array<double, kTapSide> z_m;
   std::array<int32_t, kTapSide> pixel;
 };
 
-// Without a branch, for the compiler to take several taps at once.
+// Branch-free, so that the compiler vectorises it.
 OSSA_CPU_DISPATCH void FindPixels(const depth::Camera& camera, const TapColumns& columns,
                                   const Eigen::Vector3d& down_m, TapRow* row) {
   const double width = camera.width, height = camera.height;
@@ -91,7 +92,7 @@ OSSA_CPU_DISPATCH void FindPixels(const depth::Camera& camera, const TapColumns&
   }
 }
 
-// What the taps of a cell have seen until now.
+// Accumulated taps of a cell.
 struct CellTally {
   double behind_m = 0.0;
   int surface = 0, hidden = 0;
@@ -108,7 +109,7 @@ struct CellTally {
 struct SeenScene {
   depth::DepthView view;
   std::span<const uint8_t> is_person;
-  double range_m = 0.0;  // of the plane of the taps
+  double range_m = 0.0;  // distance of the plane of taps
 
   void Read(const TapRow& row, size_t tap, CellTally* cell) const {
     const int32_t pixel = row.pixel[tap];

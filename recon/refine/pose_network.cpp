@@ -14,7 +14,7 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: by hand, of the format, and part of every pose network; without a unit in their name
+// Constants: by hand, of the format, and part of every pose network; without a unit in the name
 // they are ratios, counts or logarithms.
 
 constexpr ContainerFormat kPoseNetworkFormat = {
@@ -23,12 +23,12 @@ constexpr ContainerFormat kPoseNetworkFormat = {
 constexpr float kDepthScale = 2.0F;  // inputs a metre
 constexpr float kOffset_m = 0.2F;    // of an output of 1
 constexpr float kScale_m = 0.1F;     // of an error whose logarithm is 0
-// The mean distance of places whose density falls as exp(-distance / scale) in space, over scale.
+// Mean distance over scale of a density that decays as exp(-distance / scale) in space.
 constexpr double kMeanOverScale = 3.0;
 constexpr int kInputs = 3;
-constexpr int kOutputs = 5;  // of a joint: vote, offset, logarithm of the error's scale
+constexpr int kOutputs = 5;  // per joint: vote, offset, logarithm of the error's scale
 
-// What a layer is: its window and stride, and the layers whose outputs it reads.
+// A layer: window, stride, and the layers whose outputs it reads.
 struct LayerShape {
   int size = 3, stride = 1;
 };
@@ -58,7 +58,7 @@ enum Layer : size_t {
   kHead
 };
 
-// How many channels each layer is to have, by those that it has.
+// Expected input channels of each layer, from the actual layers.
 std::array<Eigen::Index, PoseNetwork::kLayers> ExpectedInputs(const PoseNetwork::Layers& layers) {
   const auto width = [&](Layer layer) { return layers[layer].bias.size(); };
   const auto near = width(kDown3), far = width(kDown4);
@@ -104,7 +104,7 @@ FeatureMap ToInput(const PersonCrop& crop) {
   return input;
 }
 
-// The place, metres in the crop, and the logarithm of its error's scale: means by the votes.
+// Position, metres in the crop, and the logarithm of its error scale: means weighted by votes.
 struct Voted {
   Eigen::Vector3d place_m = Eigen::Vector3d::Zero();
   double log_scale = 0.0;
@@ -130,10 +130,10 @@ Voted Vote(const FeatureMap& votes, Eigen::Index first) {
   return voted;
 }
 
-// Whatever a network says, a joint lies near the person and before the camera; of one that says
-// nothing, for its numbers grew beyond all bounds, nothing is known.
+// Clamps a prediction to positions near the person and in front of the camera; non-finite
+// predictions become unknown.
 Voted Bounded(const Voted& voted, const PersonCrop& crop) {
-  constexpr double kFarthest_m = 5.0, kNearest_m = 0.1;  // from the middle; before the camera
+  constexpr double kFarthest_m = 5.0, kNearest_m = 0.1;  // from the middle; in front of the camera
   constexpr double kMostLogScale = 10.0;                 // a ratio's logarithm: 2 km
   if (!voted.place_m.allFinite() || !std::isfinite(voted.log_scale)) {
     return {Eigen::Vector3d::Zero(), kMostLogScale};

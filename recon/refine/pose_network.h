@@ -15,30 +15,30 @@
 
 namespace ossa::recon {
 
-/// The pose network among the shipped files.
+/// File name of the shipped pose network.
 inline constexpr const char* kShippedPoseNetwork = "body.ossanet";
 
-/// Where a pose network puts a person's joints, and how far off it expects each to be.
+/// Joints predicted by a pose network, with their expected errors.
 struct NetworkPose {
   Posture joints_m;              // camera space
-  JointArray<double> error_m{};  // the mean distance from the true place, as it expects it
+  JointArray<double> error_m{};  // expected distance from the true position
 };
 
-/// A convolutional network that reads the joints off the depth image of the whole person at once,
-/// where a refinement cascade looks around each joint alone: what a forearm is, the trunk may tell.
-/// Every cell of a coarse map votes for each joint, and the mean of their places, by their votes,
-/// is the joint (Xiong et al. 2019, "A2J: anchor-to-joint regression"). Departure: votes, offsets
-/// and depth come from one head; each joint comes with the scale of its error (Kendall and Gal
-/// 2017), so that it can be fused with others. Learned from rendered people
+/// A convolutional network that predicts all joints from the depth image of the whole person, while
+/// a refinement cascade sees only the surroundings of each joint: the trunk may help to identify a
+/// forearm. Every cell of a coarse map votes for each joint, and a joint is the mean of their
+/// positions, weighted by votes (Xiong et al. 2019, "A2J: anchor-to-joint regression"). Departure:
+/// votes, offsets and depth come from one head; each joint has an error scale (Kendall and Gal
+/// 2017), so that it can be fused with other estimates. Trained on rendered people
 /// (tools/train_pose_network).
 class PoseNetwork {
  public:
-  /// In the order in which they run: three steps down, a residual block (He et al. 2016), one step
-  /// down, two blocks, the way up, what joins both maps, the votes.
+  /// In execution order: three downsampling layers, a residual block (He et al. 2016), another
+  /// downsampling layer, two blocks, upsampling, the layer that merges both maps, the votes.
   static constexpr size_t kLayers = 13;
   using Layers = std::array<Convolution, kLayers>;
 
-  /// `people`: that it was learned from. Throws InputError where the layers do not fit together.
+  /// `people`: number of training people. Throws InputError if the layers do not fit together.
   PoseNetwork(Layers layers, uint64_t people, const std::string& name);
 
   NetworkPose Run(const PersonCrop& crop) const;
@@ -52,14 +52,14 @@ class PoseNetwork {
   void Save(const std::filesystem::path& path) const;
   /// True when the file says that it is one; it may still be damaged.
   static bool IsFile(const std::filesystem::path& path);
-  /// The numbers that tools/learning/train_pose_network.py writes: of each layer its inputs,
+  /// From the numbers that tools/learning/train_pose_network.py writes: for each layer its inputs,
   /// outputs, size and stride, weights and bias. Throws InputError that names `name`.
   static PoseNetwork FromNumbers(std::span<const float> numbers, uint64_t people,
                                  const std::string& name);
 
  private:
   Layers layers_;
-  std::array<QuantisedConvolution, kLayers> quantised_;  // the layers, ready to run
+  std::array<QuantisedConvolution, kLayers> quantised_;  // the layers, quantised
   uint64_t people_ = 0;
 };
 

@@ -29,13 +29,13 @@ bool CanBeRefined(const RefinementInput& input) {
   return true;
 }
 
-// From the left side of the body to the right one.
+// Direction from the left side of the body to the right one.
 Eigen::Vector3d ComputeAcross(const Posture& posture) {
   return posture[Joint::kShoulderRight] - posture[Joint::kShoulderLeft] +
          (posture[Joint::kHipRight] - posture[Joint::kHipLeft]);
 }
 
-// The same frame, turned about its z until x goes along `across`; as it is where that is the ray.
+// The frame rotated about its z axis so that x points along `across`; unchanged if that is the ray.
 ViewFrame TurnedAlong(const ViewFrame& frame, const Eigen::Vector3d& across_m) {
   constexpr double kLeast_m = 0.05;  // shorter is noise
   const Eigen::Vector3d z = frame.frame_from_camera.row(2);
@@ -47,7 +47,7 @@ ViewFrame TurnedAlong(const ViewFrame& frame, const Eigen::Vector3d& across_m) {
   return turned;
 }
 
-// Of a body at all, however small or large.
+// Whether these can be the bones of a body of any size.
 bool AreBones(const BoneLengths& lengths_m) {
   constexpr double kShortest_m = 1e-3, kLongest_m = 10.0;
   return std::all_of(lengths_m.begin() + 1, lengths_m.end(), [](double length_m) {
@@ -173,8 +173,7 @@ JointRefiner::JointRefiner(const RefinementCascade& cascade)
   networks_ = packer.Take();
 }
 
-// Each chosen joint, moved by what its network says of it; of a pair both at once, the right one
-// mirrored.
+// Moves each chosen joint by its network's offset; both of a pair at once, the right one mirrored.
 Posture JointRefiner::RunStage(Networks of_joints, const RefinementInput& input,
                                const SampledPerson& seen, const JointSet& chosen) {
   Posture joints_m = input.proposed;
@@ -202,7 +201,7 @@ Posture JointRefiner::RunStage(Networks of_joints, const RefinementInput& input,
   return joints_m;
 }
 
-// As far as there is something to see.
+// Stops when there is nothing to sample.
 RefinementInput JointRefiner::RunStages(Networks networks, RefinementInput input) {
   JointSet chosen = kAllJoints;
   for (size_t first = 0; first < networks.size(); first += kStageJoints.size()) {

@@ -17,14 +17,14 @@ constexpr ContainerFormat kCascadeFormat = {
     {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, RefinementCascade::kVersion, "refinement cascade"};
 // Constants: of the format (zstd level), and bounds against damaged files.
 
-constexpr uint32_t kFirstBoneConditioned = 5;  // version that has such stages
-constexpr uint32_t kFirstCompressed = 6;       // version that is
-constexpr uint32_t kFirstFromAbove = 7;        // version that may be
-constexpr uint32_t kFirstForest = 8;           // version that says of which forest
+constexpr uint32_t kFirstBoneConditioned = 5;  // first version with such stages
+constexpr uint32_t kFirstCompressed = 6;       // first compressed version
+constexpr uint32_t kFirstFromAbove = 7;        // first version with from_above
+constexpr uint32_t kFirstForest = 8;           // first version that names the forest
 constexpr int kCompressionLevel = 19;
 
 Perceptron GetStageNetwork(PayloadReader& in, Eigen::Index inputs, Eigen::Index outputs) {
-  constexpr uint32_t kMostLayers = 2;  // with modest weights no sum through them is too large
+  constexpr uint32_t kMostLayers = 2;  // sums through them cannot overflow
   const auto hidden = in.Get<uint32_t>("layers");
   if (hidden > kMostLayers) in.Fail("layers", fmt::format("expected at most {}", kMostLayers));
   std::vector<Eigen::Index> sizes = {inputs};
@@ -42,7 +42,7 @@ void PutStageNetwork(PayloadWriter& out, const Perceptron& network) {
   PutPerceptron(out, network, WeightForm::kBytes);
 }
 
-// What is done with each network as soon as it is read.
+// Consumes each network as soon as it is read.
 using TakeNetwork = std::function<void(Perceptron)>;
 
 uint32_t GetStages(PayloadReader& in, const char* name, uint32_t fewest, Eigen::Index inputs,
@@ -55,7 +55,7 @@ uint32_t GetStages(PayloadReader& in, const char* name, uint32_t fewest, Eigen::
   return count;
 }
 
-// What a file holds beside its networks.
+// The contents of a file besides its networks.
 struct FileCounts {
   bool from_above = false;
   uint64_t forest_checksum = 0;
@@ -69,7 +69,7 @@ bool GetFromAbove(PayloadReader& in) {
   return from_above == 1;
 }
 
-// The networks come in the order in which they run.
+// Calls `take` with the networks in execution order.
 FileCounts ReadNetworks(std::span<const std::byte> bytes, const std::string& name, uint32_t version,
                         const TakeNetwork& take) {
   PayloadReader in(bytes, name);
@@ -90,7 +90,7 @@ FileCounts ReadNetworks(std::span<const std::byte> bytes, const std::string& nam
   return counts;
 }
 
-// Calls read(payload, its name, its version), and returns what that does.
+// Returns read(payload, name, version).
 template <typename Read>
 auto ReadPayload(const std::filesystem::path& path, const Read& read) {
   const ContainerFormat format =

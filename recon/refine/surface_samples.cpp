@@ -11,13 +11,13 @@ namespace {
 // Constants: chosen by hand; part of every cascade.
 
 constexpr float kMostBehind_mm = 300.0F;
-constexpr float kNearer_mm = 30.0F;  // by so much, something that is not the person is before it
-constexpr float kNearest_m = 0.2F;   // what is nearer is beside the sensor
+constexpr float kNearer_mm = 30.0F;  // other surfaces nearer by this occlude the joint
+constexpr float kNearest_m = 0.2F;   // nearer points are outside the view: beside the sensor
 
 template <typename T>
 using OfSamples = std::array<T, kSurfaceSamples>;
 
-// Where on the two grids one tap of each sample is.
+// Positions of one tap of each sample on the two grids.
 struct Grids {
   OfSamples<float> x_m{}, y_m{};
 };
@@ -43,27 +43,27 @@ constexpr std::array<Grids, kSampleTaps> MakeGrids() {
 
 constexpr std::array<Grids, kSampleTaps> kGrids = MakeGrids();
 
-// One tap of each sample, as the camera has it.
+// One tap of each sample, seen by the camera.
 struct Taps {
   OfSamples<int32_t> pixel{};  // or kOutside
   OfSamples<float> z_mm{};     // along the camera's axis
-  OfSamples<float> slant{};    // way along the ray, for each metre of z
+  OfSamples<float> slant{};    // distance along the ray per metre of z
   OfSamples<int32_t> depth_mm{}, is_person{};
 };
 constexpr int32_t kOutside = -1;
 
-// What the taps so far have found.
+// Accumulated taps.
 struct Sums {
   OfSamples<float> behind_mm{};
   OfSamples<int32_t> surface{}, hidden{};
 };
 
-// As std::clamp, whose assertion of its bounds would keep samples from going side by side.
+// As std::clamp, whose assertion would prevent vectorisation.
 [[gnu::always_inline]] inline float Within(float value, float least, float most) {
   return std::min(std::max(value, least), most);
 }
 
-// As depth::Project, side by side.
+// As depth::Project, vectorised.
 OSSA_CPU_DISPATCH void Project(const depth::Camera& camera, const Eigen::Vector3f& joint_m,
                                const Eigen::Matrix3f& camera_from_frame, const Grids& grids,
                                Taps* taps) {
@@ -81,7 +81,7 @@ OSSA_CPU_DISPATCH void Project(const depth::Camera& camera, const Eigen::Vector3
     const float per_z = Within(1.0F / z, 0.0F, 1.0F / kNearest_m);
     const float tangent_x = (x_m + xx * right_m + xy * down_m) * per_z;
     const float tangent_y = (y_m + yx * right_m + yy * down_m) * per_z;
-    // Bounded: a place far aside is a number that no int holds.
+    // Clamped: coordinates far outside the image exceed int.
     const float u = Within(cx - fx * tangent_x + 0.5F, 0.0F, right_end);
     const float v = Within(cy - fy * tangent_y + 0.5F, 0.0F, bottom);
     const auto column = static_cast<int32_t>(u), row = static_cast<int32_t>(v);
@@ -93,7 +93,7 @@ OSSA_CPU_DISPATCH void Project(const depth::Camera& camera, const Eigen::Vector3
   }
 }
 
-// Without branches, all numbers of one width: several samples at a time.
+// Branch-free, with numbers of one width, so that it vectorises.
 OSSA_CPU_DISPATCH void Add(const Taps& taps, Sums* sums) {
   for (size_t i = 0; i < kSurfaceSamples; ++i) {
     const int32_t outside = taps.pixel[i] == kOutside ? 1 : 0;

@@ -7,8 +7,8 @@ namespace ossa::recon::test {
 
 constexpr double kFrame_s = 1.0 / 30.0;
 
-/// Somebody's motion, true and as a sensor has it that jitters and is a frame late. People differ
-/// in size and in what they do.
+/// A person's motion, true and as observed by a sensor with jitter and a frame of latency. People
+/// differ in size and motion.
 struct SeenPerson {
   std::vector<Posture> truth, seen;
 };
@@ -27,8 +27,8 @@ inline SeenPerson Seen(int person, int frames = 300) {
   return out;
 }
 
-/// Somebody before a sensor without any memory: it jitters by centimetres, and in one frame of
-/// twenty a joint of the limbs is somewhere else, 30 cm away.
+/// A person observed by a memoryless sensor: jitter of centimetres, and in one frame of twenty a
+/// limb joint is 30 cm off.
 inline SeenPerson SeenBadly(int person, int frames = 600) {
   std::mt19937_64 rng(static_cast<uint64_t>(200 + person));
   std::normal_distribution<double> normal(0.0, 1.0);

@@ -1,16 +1,16 @@
-// ossa's own method, the default. Causal; a joint seen well passes nearly unchanged. Where there is
-// a depth image the tracker has refined the joints at it (recon/refine). A frame goes through these
-// stages; each is a file of this folder:
+// ossa's own method, the default. Causal; well-observed joints pass nearly unchanged. With a depth
+// image the tracker has refined the joints already (recon/refine). A frame passes through these
+// stages, each of which is a file in this folder:
 //   1. gross_failures: whole-person failures (left and right exchanged, a jump to another body) are
-//      undone or waited out; single joints that jump are not trusted until they stay;
-//   2. trust: how far each joint may be believed to be where it is seen;
-//   3. completion: joints in doubt are propagated along the chain of bones, towards what a pose
-//      prior (prior_completion) or a database expects;
-//   4. posture_filter: a filter a joint, weighted by trust, or one that was learned of this sensor;
-//      a frame later it revises what it said;
-//   5. correction: the learned systematic error of the whole posture is taken off;
+//      undone or waited out; single joints that jump are distrusted until they stay;
+//   2. trust: the trust in each joint's observed position;
+//   3. completion: doubtful joints are propagated along the chain of bones, towards what a pose
+//      prior (prior_completion) or a database predicts;
+//   4. posture_filter: one filter per joint, weighted by trust, or one learned for this sensor; a
+//      frame later it gives a revised estimate;
+//   5. correction: the learned systematic error of the whole posture is subtracted;
 //   6. bones: the person's bones, measured by BodySize, get constant lengths.
-// What a sensor is like, and where stages heed it, says sensor_traits.
+// sensor_traits describes sensors, and which stages depend on them.
 #include <algorithm>
 
 #include "recon/methods/best/bones_internal.h"
@@ -25,8 +25,8 @@
 namespace ossa::recon {
 namespace {
 
-// By hand: where nothing is completed, a joint in doubt enters its filter as a measurement of at
-// most twice the variance.
+// By hand: without completion, a doubtful joint enters its filter as a measurement with at most
+// twice the variance.
 constexpr double kLeastFilterWeight = 0.5;
 
 class Best : public Reconstructor {
@@ -47,7 +47,7 @@ class Best : public Reconstructor {
       }
     }
     filter_ = PostureFilter(options_.constants, learned_filter);
-    MeasureAnew();
+    ResetBodySize();
   }
 
   ReconstructedPosture Step(const ReconstructionInput& raw) override {
@@ -71,7 +71,7 @@ class Best : public Reconstructor {
 
     Revise(prepared, before);
     last_ = frame;
-    // What the next frame is held against has the sensor's errors, as that will have.
+    // Compared with the next frame, which has the sensor's errors: hence not the corrected posture.
     failures_.Remember(now, prepared.dt_s);
     person_.Remember(now, prepared);
     return out;
@@ -87,13 +87,13 @@ class Best : public Reconstructor {
     completion_.Reset();
     filter_.Restart();
     correction_.Reset();
-    MeasureAnew();
+    ResetBodySize();
     last_.reset();
     revised_.reset();
   }
 
  private:
-  void MeasureAnew() {
+  void ResetBodySize() {
     size_ = BodySize({.as_measured = true});
     size_.Expect(proportions_, options_.constants.expected_share);
     if (known_bones_m_) size_.Know(*known_bones_m_);
@@ -116,7 +116,7 @@ class Best : public Reconstructor {
   Posture Complete(const PreparedPosture& prepared, const ReconstructionInput& input,
                    const FrameState& frame, double body_trust) {
     const std::optional<Posture>& before = person_.last_in_camera();
-    if (body_trust == 0.0 && before) return *before;  // somebody else, perhaps: the person stays
+    if (body_trust == 0.0 && before) return *before;  // perhaps another person
     if (!options_.complete) return prepared.in_camera;
     JointArray<bool> filter_corrects;
     for (size_t i = 0; i < kJointCount; ++i) filter_corrects[i] = FilterCorrects(prepared, i);
@@ -124,8 +124,8 @@ class Best : public Reconstructor {
                                  person_.size().lengths_m()});
   }
 
-  /// Whether the learned filter is to have a joint as it is seen, trusted or not: it has learned of
-  /// this sensor what to make of gross errors. Of jumps that are waited out it has not.
+  /// Whether the learned filter gets a joint as observed, trusted or not: it has learned this
+  /// sensor's gross errors, but not the jumps that are waited out.
   bool FilterCorrects(const PreparedPosture& prepared, size_t joint) const {
     return options_.filter && filter_.UsedInfluence(joint) && prepared.present[joint] > 0.0 &&
            failures_.joint_trust()[joint] > TrustOptions().trusted;
@@ -137,7 +137,7 @@ class Best : public Reconstructor {
     FilterMask mask;
     for (size_t i = 0; i < kJointCount; ++i) {
       const bool missing = completion_.missing()[i];
-      // A posture that is held has been through this filter and must not lag behind what moves it.
+      // A held posture has already been filtered and must not lag behind its parent.
       const bool holds = missing && !completion_.HasExpectation(prepared);
       mask.weights[i] = holds ? 1.0 : std::max(trust[i], kLeastFilterWeight);
       mask.trusted[i] = trust[i] > TrustOptions().trusted;
@@ -153,7 +153,7 @@ class Best : public Reconstructor {
         frame.reliability};
   }
 
-  /// What is thought of the frame before, now that this one is known.
+  /// Revises the previous frame, now that this one is known.
   void Revise(const PreparedPosture& prepared, const Posture& before) {
     revised_.reset();
     if (!last_ || prepared.restarted || !options_.filter) return;
@@ -163,14 +163,14 @@ class Best : public Reconstructor {
 
   BestOptions options_;
   std::optional<BoneLengths> known_bones_m_;
-  BoneLengths proportions_{};  // bones expected over the standard ones, where that was learned
-  SensorTraits sensor_;        // of the newest frame
+  BoneLengths proportions_{};  // expected bone lengths relative to the standard ones, if learned
+  SensorTraits sensor_;        // of the latest frame
   Person person_{ReliabilityOptions{.use_speed = true}};
   GrossFailures failures_;
   Completion completion_;
   PostureFilter filter_;
   Correction correction_;
-  BodySize size_;  // of what comes out: the correction may change bones
+  BodySize size_;  // of the output: the correction may change bones
   std::optional<FrameState> last_;
   std::optional<ReconstructedPosture> revised_;
 };

@@ -8,17 +8,17 @@
 namespace ossa::recon {
 namespace {
 
-/// A quarter of the paper's search: joints in doubt are no worse for it in the ten scenarios of
-/// Plantard 2016 (`ossa experiment plantard-2016`), and a frame costs half a millisecond less.
+/// A quarter of the paper's search: doubtful joints are no worse in the ten scenarios of Plantard
+/// 2016 (`ossa experiment plantard-2016`), and a frame takes half a millisecond less.
 ReconstructorOptions OptionsForCompletion(ReconstructorOptions options) {
   options.local_pca.steps = 8;
   options.local_pca.samples = 60;
-  options.bones_m.reset();  // it has joints where the sensor has them
+  options.bones_m.reset();  // joints have the sensor's bone lengths here
   return options;
 }
 
-/// How fair the sensor's guess of a joint is, in [0, 1]: 0 for a joint that it says nothing of.
-double JudgeGuess(const CompletionInput& input, size_t joint) {
+/// Quality of the sensor's guess of a joint, in [0, 1]: 0 for a joint without one.
+double RateGuess(const CompletionInput& input, size_t joint) {
   const TrackedPosture& observed = input.observation.observed;
   if (observed.state[joint] == TrackingState::kNotTracked) return 0.0;
   const double confidence = observed.confidence[joint];
@@ -26,7 +26,8 @@ double JudgeGuess(const CompletionInput& input, size_t joint) {
   return std::clamp(confidence / input.sensor.fair_confidence, 0.0, 1.0);
 }
 
-/// Where the joint is when it lies to its parent in `target` as it does in `posture`.
+/// The joint's position with its offset from the parent in `posture`, added to the parent in
+/// `target`.
 Eigen::Vector3d PropagateAlongChain(const Posture& posture, size_t joint, const Posture& target,
                                     const PreparedPosture& prepared) {
   if (joint == 0) return prepared.in_camera.position_m[0];
@@ -57,8 +58,8 @@ void Completion::FindMissing(const PreparedPosture& prepared, const SensorTraits
     missing_[i] = !sensor.places_hidden_joints && had_[i] && prepared.present[i] == 0.0;
 }
 
-/// Whether a joint that this sensor has is in doubt. What it never has (a Kinect's recording
-/// without hands) says nothing of the frame.
+/// Whether a joint that this sensor provides is in doubt. Joints that it never provides (a Kinect's
+/// recording without hands) are ignored.
 bool Completion::IsInDoubt(const PreparedPosture& prepared, const JointWeights& trust) {
   bool doubt = false;
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -83,12 +84,12 @@ Posture Completion::Complete(const CompletionInput& input) {
   const Posture before = input.before.value_or(prepared.in_camera);
   const bool expects = HasExpectation(prepared);
   const Posture expected = expects ? Expect(input) : before;
-  JointWeights seen;  // 1: where it is seen, 0: propagated
+  JointWeights seen;  // 1: observed position, 0: propagated
   Posture propagated;
   for (size_t i = 0; i < kJointCount; ++i) {
     seen[i] = IsInterpolated(prepared, missing_, i) ? trust[i] / limits.interpolated
                                                     : std::min(1.0, trust[i] / limits.trusted);
-    const double fair = expects ? JudgeGuess(input, i) : 1.0;
+    const double fair = expects ? RateGuess(input, i) : 1.0;
     const auto propagate = [&](const Posture& posture) {
       return PropagateAlongChain(posture, i, target, prepared);
     };
@@ -98,12 +99,12 @@ Posture Completion::Complete(const CompletionInput& input) {
     target.position_m[i] =
         seen[i] * target.position_m[i] + (1.0 - seen[i]) * propagated.position_m[i];
   }
-  StretchToSeenEnds(seen, propagated, target);
+  StretchToVisibleEnds(seen, propagated, target);
   return target;
 }
 
 bool Completion::HasExpectation(const PreparedPosture& prepared) const {
-  constexpr int kFewest = 4;  // joints; by hand: fewer tell no posture of a database from another
+  constexpr int kFewest = 4;  // joints; by hand: fewer do not identify a posture of a database
   const auto seen = std::count(prepared.present.begin(), prepared.present.end(), 1.0);
   return prior_ ? seen > 0 : plantard_ && seen >= kFewest;
 }
@@ -113,11 +114,11 @@ Posture Completion::Expect(const CompletionInput& input) {
   return prior_->Step(input.prepared, input.trust, input.before, input.lengths_m);
 }
 
-/// A limb reaches for what is seen of it: where a hand is not where the arm would have it, the
-/// missing joints above follow, each by its share of the way from the shoulder.
-void Completion::StretchToSeenEnds(const JointWeights& seen, const Posture& propagated,
-                                   Posture& target) const {
-  constexpr double kLeastChain_m = 1e-3;  // by hand: a shorter one has no shares
+/// Stretches a limb to its observed end: if a hand is not where the arm predicts it, the missing
+/// joints above move with it, in proportion to their distance from the shoulder.
+void Completion::StretchToVisibleEnds(const JointWeights& seen, const Posture& propagated,
+                                      Posture& target) const {
+  constexpr double kLeastChain_m = 1e-3;  // by hand: shares are undefined below
   for (size_t end = 0; end < kJointCount; ++end) {
     if (!IsInLimb(end) || seen[end] == 0.0) continue;
     size_t fixed = ParentOf(end);

@@ -7,46 +7,46 @@
 
 namespace ossa::recon {
 
-/// What a frame's joints in doubt are completed from.
+/// What doubtful joints are completed from.
 struct CompletionInput {
   const PreparedPosture& prepared;
   const ReconstructionInput& observation;
   const SensorTraits& sensor;
   const JointWeights& trust;
-  const JointArray<bool>& filter_corrects;  // left to a filter that learned the sensor's errors
-  const std::optional<Posture>& before;     // camera space, what was made of the frame before
-  const BoneLengths& lengths_m;             // of the person
+  const JointArray<bool>& filter_corrects;  // left to the filter that learned the sensor's errors
+  const std::optional<Posture>& before;     // camera space, the result of the previous frame
+  const BoneLengths& lengths_m;             // the person's
 };
 
-/// Stage 3 of `best`: joints in doubt are propagated along the chain of bones from those that are
-/// seen, which stay. How a joint in doubt lies to its parent is a matter of the sensor's own
-/// confidence in its guess: after fair guesses as it did a frame before (their mean is nearer the
-/// truth than any database), after poor ones as is to be expected of what is seen: by the pose
-/// prior, else as plantard-2016 has it where there is a database, else as before.
+/// Stage 3 of `best`: propagates doubtful joints along the chain of bones from observed ones, which
+/// keep their positions. The offset of a doubtful joint from its parent depends on the sensor's
+/// confidence in its guess. After good guesses it is that of the frame before (their mean is nearer
+/// the truth than any database); after poor ones it is predicted by the pose prior, else by
+/// plantard-2016 if there is a database, else kept.
 class Completion {
  public:
   explicit Completion(const ReconstructorOptions& options);
 
-  /// Finds the joints that the sensor has had but that are absent in this frame. Of a sensor that
-  /// places hidden joints none is.
+  /// Finds joints that the sensor has provided before and that are absent in this frame. A sensor
+  /// that places hidden joints has none.
   void FindMissing(const PreparedPosture& prepared, const SensorTraits& sensor);
   const JointArray<bool>& missing() const { return missing_; }
-  /// The posture, camera space, with every joint where it is to be believed.
+  /// The completed posture, camera space.
   Posture Complete(const CompletionInput& input);
-  /// Whether enough is seen to expect a posture of it; else the last one is held.
+  /// Whether enough joints are observed to predict a posture; else the last one is held.
   bool HasExpectation(const PreparedPosture& prepared) const;
   void Reset();
 
  private:
   bool IsInDoubt(const PreparedPosture& prepared, const JointWeights& trust);
   Posture Expect(const CompletionInput& input);
-  void StretchToSeenEnds(const JointWeights& seen, const Posture& propagated,
-                         Posture& target) const;
+  void StretchToVisibleEnds(const JointWeights& seen, const Posture& propagated,
+                            Posture& target) const;
 
-  std::optional<PriorCompletion> prior_;     // where there is a prior
-  std::unique_ptr<Reconstructor> plantard_;  // else, where there is a database
-  JointArray<bool> had_{};                   // joints that were ever seen
-  JointArray<bool> missing_{};               // of those: absent now
+  std::optional<PriorCompletion> prior_;     // if there is a prior
+  std::unique_ptr<Reconstructor> plantard_;  // else, if there is a database
+  JointArray<bool> had_{};                   // joints ever observed
+  JointArray<bool> missing_{};               // of these: absent now
 };
 
 }  // namespace ossa::recon

@@ -3,11 +3,12 @@
 
 namespace ossa::recon {
 
-/// What the last stages of `best` need to know of a frame, now and once more a frame later.
+/// State of a frame for the last stages of `best`, for the estimate now and the revised one a frame
+/// later.
 struct FrameState {
-  Posture held;  // camera space: what is said of it should the next frame be told apart from it
+  Posture held;         // camera space: its revised estimate if the next frame is unrelated
   Placement placement;  // camera from normalised
-  double scale = 1.0;   // of the person over the standard body
+  double scale = 1.0;   // size relative to the standard body
   double time_s = 0.0;
   JointWeights trust{}, reliability{};  // [0, 1]
 };

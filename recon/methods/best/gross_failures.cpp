@@ -14,7 +14,7 @@ bool Seen(const TrackedPosture& observed, size_t i) {
          observed.posture.position_m[i].allFinite();
 }
 
-/// Median distance between what is seen and what is expected; nothing when little is seen.
+/// Median distance between observed and expected joints; none if few are observed.
 std::optional<double> MedianDistance(const TrackedPosture& observed, const Posture& expected) {
   std::vector<double> d;
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -33,7 +33,7 @@ double GrossFailures::Repair(ReconstructionInput& input) {
   elsewhere_ = false;
   failure_ = GrossFailure::kNone;
   const std::optional<double> step = steps_.To(input.time_s);
-  if (!last_ || !step) return BeginAnew();
+  if (!last_ || !step) return Restart();
   const double step_s = *step;
   const Posture predicted = Predict(step_s);
   const std::optional<double> distance_m = MedianDistance(input.observed, predicted);
@@ -42,12 +42,12 @@ double GrossFailures::Repair(ReconstructionInput& input) {
   const bool sides = distance_m && exchanged_distance_m && *distance_m > options_.slack_m &&
                      *exchanged_distance_m < options_.mirrored_ratio * *distance_m;
   exchanged_s_ = sides ? exchanged_s_ + step_s : 0.0;
-  if (exchanged_s_ > options_.sides_patience_s) return AcceptAfterAll();
+  if (exchanged_s_ > options_.sides_patience_s) return AcceptPersistentFailure();
   if (!sides && distance_m && IsBeyondReach(*distance_m, step_s)) {
     body_jumped_s_ += step_s;
     const bool is_own = SameBones(input.observed);
     const double patience_s = is_own ? options_.own_patience_s : options_.patience_s;
-    if (body_jumped_s_ >= patience_s) return AcceptAfterAll();
+    if (body_jumped_s_ >= patience_s) return AcceptPersistentFailure();
     failure_ = GrossFailure::kAnotherBody;
     return 0.0;
   }
@@ -62,7 +62,7 @@ double GrossFailures::Repair(ReconstructionInput& input) {
   return sides ? 0.5 : 1.0;
 }
 
-double GrossFailures::BeginAnew() {
+double GrossFailures::Restart() {
   last_.reset();
   before_last_.reset();
   jumped_s_.fill(0.0);
@@ -73,7 +73,7 @@ double GrossFailures::BeginAnew() {
 Posture GrossFailures::Predict(double step_s) const {
   Posture predicted = *last_;
   if (!before_last_) return predicted;
-  // Half the velocity: a full step would make every change of direction a jump.
+  // Half the velocity: with all of it every change of direction would look like a jump.
   const double share = 0.5 * step_s / last_dt_s_;
   for (size_t i = 0; i < kJointCount; ++i) {
     predicted.position_m[i] += share * (last_->position_m[i] - before_last_->position_m[i]);
@@ -85,8 +85,8 @@ bool GrossFailures::IsBeyondReach(double distance_m, double step_s) const {
   return distance_m > options_.slack_m + options_.body_slack_m + options_.body_speed * step_s;
 }
 
-/// It stays so: the past was wrong, or is over.
-double GrossFailures::AcceptAfterAll() {
+/// Accepts a persistent failure: the past was wrong, or is over.
+double GrossFailures::AcceptPersistentFailure() {
   elsewhere_ = true;
   last_.reset();
   before_last_.reset();
@@ -107,17 +107,17 @@ void GrossFailures::JudgeJoints(const TrackedPosture& observed, const Posture& p
       jumped_s_[i] = 0.0;
       continue;
     }
-    // Jumping on, from one wrong place to another, is no staying.
+    // A joint that keeps jumping between wrong places does not stay.
     const bool stays = jumped_s_[i] > 0.0 && (p - suspect_.position_m[i]).norm() < allowed;
     jumped_s_[i] = stays ? jumped_s_[i] + dt_s : dt_s;
     suspect_.position_m[i] = p;
-    // A jump without any other sign of an error is a fast move or a lost frame.
+    // A jump without further signs of an error is a fast movement or a lost frame.
     if (jumped_s_[i] < options_.patience_s && LooksWrong(observed, i))
       joint_trust_[i] = options_.jump_trust;
   }
 }
 
-/// Whether what is seen has the bones of the person seen until now: half of them within a tenth.
+/// Whether the observed bones are the person's: half of them within a tenth.
 bool GrossFailures::SameBones(const TrackedPosture& observed) const {
   const BoneLengths now = MeasureBoneLengths(observed.posture), before = MeasureBoneLengths(*last_);
   std::vector<double> off;
@@ -129,8 +129,8 @@ bool GrossFailures::SameBones(const TrackedPosture& observed) const {
   return Median(std::move(off)) < options_.same_bone;
 }
 
-/// What else speaks against a joint that jumped: its bone has not the length it had, or it lies on
-/// its counterpart of the other side, where it did not lie before.
+/// Further evidence against a joint that jumped: a wrong bone length, or it coincides with its
+/// counterpart of the other side where it did not before.
 bool GrossFailures::LooksWrong(const TrackedPosture& observed, size_t i) const {
   const auto m = kMirroredJoint[i];
   const auto distance = [](const Posture& p, size_t a, size_t b) {

@@ -29,7 +29,7 @@ void PostureFilter::Remember(const Posture& in_camera, double dt_s, const Filter
 Posture PostureFilter::Step(const Posture& in_camera, double yaw_rad, double dt_s,
                             const FilterMask& mask) {
   constexpr int kTakeOver =
-      4;  // frames in which a joint trusted again comes from LagFilter; by hand
+      4;  // frames for which a newly trusted joint comes from LagFilter; by hand
   if (!linear_.empty()) Remember(in_camera, dt_s, mask);
   Posture now;
   for (size_t i = 0; i < kJointCount; ++i) {

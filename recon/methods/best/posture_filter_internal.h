@@ -8,19 +8,20 @@
 
 namespace ossa::recon {
 
-/// What is known of the joints of a frame that is to be filtered.
+/// What is known about the joints of a frame to be filtered.
 struct FilterMask {
-  JointWeights weights{};       // in (0, 1]: they divide a measurement's variance
-  JointArray<bool> trusted{};   // it is where it was seen
-  JointArray<bool> observed{};  // trusted or not, it is not merely held
+  JointWeights weights{};       // in (0, 1]; divide a measurement's variance
+  JointArray<bool> trusted{};   // the joint is at its observed position
+  JointArray<bool> observed{};  // observed, trusted or not; else held
 };
 
-/// Stage 4 of `best`: all joints of a person, now without lag and once more a frame later.
+/// Stage 4 of `best`: filters all joints of a person, with an estimate now and a revised one a
+/// frame later.
 ///
-/// Where a LinearFilter was learned of the sensor its estimate is taken; LagFilter goes on beside
-/// it and serves for joints that have no learned weights, and until a joint was trusted (for
-/// weights of influence: observed, because they weigh a gross error themselves) in enough frames,
-/// one after the other in the step that was learned of.
+/// If a LinearFilter was learned for the sensor, its estimate is used. LagFilter runs in parallel
+/// and is used for joints without learned weights, and until a joint has been trusted in enough
+/// consecutive frames at the learned frame rate. (Influence weights handle gross errors themselves:
+/// for them observed is enough.)
 class PostureFilter {
  public:
   PostureFilter() = default;
@@ -32,10 +33,10 @@ class PostureFilter {
   }
   /// The estimate for now.
   Posture Step(const Posture& in_camera, double yaw_rad, double dt_s, const FilterMask& mask);
-  /// What is now thought of the step before.
+  /// The revised estimate of the previous step.
   const Posture& before() const { return before_; }
   void Restart();
-  /// Whether a joint's estimate came from learned weights of influence in the last step.
+  /// Whether the joint's last estimate used learned influence weights.
   bool UsedInfluence(size_t joint) const {
     return observed_[joint] >= LinearFilter::kFewest &&
            linear_.Influences(LinearFilter::kNow, joint);
@@ -48,9 +49,9 @@ class PostureFilter {
   LagFilter lag_;
   LinearFilter linear_;
   JointArray<LagFilter> filters_;
-  std::vector<Posture> window_;     // frames in the learned step, the newest last
-  LinearFilter::Steps trusted_{};   // steps up to the newest frame; -1: it is not trusted
-  LinearFilter::Steps observed_{};  // the same of what was observed
+  std::vector<Posture> window_;     // frames at the learned frame rate, newest last
+  LinearFilter::Steps trusted_{};   // consecutive trusted steps; -1: not trusted
+  LinearFilter::Steps observed_{};  // the same for observed
   Posture before_;
 };
 

@@ -5,7 +5,7 @@
 namespace ossa::recon {
 namespace {
 
-/// Share of the joints present that are guesses.
+/// Share of the present joints that are guesses.
 double ComputeGuessShare(const PreparedPosture& prepared, const JointWeights& trust,
                          const PriorCompletionOptions& options) {
   double present = 0.0, guesses = 0.0;

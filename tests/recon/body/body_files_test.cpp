@@ -1,5 +1,4 @@
-// Bodies of somebody's own: what is damaged in their files is told by file and line, and what was
-// changed in them counts.
+// Custom bodies: damaged files are reported by file and line, and edited files are reloaded.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -18,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files of a body of one triangle, which a test damages.
+/// The files of a body of one triangle, for tests to damage.
 class SmallBody : public testing::Test {
  protected:
   SmallBody() {
@@ -82,7 +81,7 @@ TEST_F(SmallBody, NamesItsFileWhereAGroupIsMissing) {
                       (folder_ / "base.obj: expected a group helper-skirt").string());
 }
 
-// The model of the first start is kept beside the files; they may be edited.
+// The model is cached beside its files, which may be edited later.
 TEST(BodyModelCache, IsMadeAnewWhereAFileIsNewer) {
   if (!BodyIsFetched(BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;

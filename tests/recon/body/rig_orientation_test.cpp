@@ -1,4 +1,4 @@
-// The orientations of a posed rig: one convention with those that joints tell
+// The orientations of a posed rig follow the same convention as those derived from joints
 // (recon/orientation.h).
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kExact = 1e-6;  // of angles near 0, which a quaternion's rounding makes so large
+constexpr double kExact = 1e-6;  // angles near 0 amplify a quaternion's rounding
 
 TEST(RigOrientations, AtRestAreWhatTheJointsTell) {
   const auto rig = ComputeOrientations(RigPose{});
@@ -34,8 +34,8 @@ TEST(RigOrientations, TurnWithTheWholeBody) {
   }
 }
 
-// Forearm and hand turned about the forearm: no joint up to the wrist moves, but the orientation of
-// the forearm tells the twist, about its own y axis.
+// Forearm and hand rotated about the forearm: no joint up to the wrist moves, but the forearm's
+// orientation shows the twist about its own y axis.
 TEST(RigOrientations, HaveTheTwistThatJointsDoNotTell) {
   constexpr double kTwist_rad = 0.9;
   const Posture rest = StandardPosture(RigPose{});
@@ -52,8 +52,8 @@ TEST(RigOrientations, HaveTheTwistThatJointsDoNotTell) {
   EXPECT_LT((before.conjugate() * after).angularDistance(twist), kExact);
 }
 
-// An arm raised sideways from hanging to a T-pose: bones' z axes point forward, as at the SDK's
-// rest.
+// An arm raised sideways from hanging to a T-pose: z axes point forwards, as in the SDK's rest
+// pose.
 TEST(RigOrientations, OfARaisedArmAreThoseOfTheTPose) {
   const Posture rest = StandardPosture(RigPose{});
   const Vector3d upper = (rest[Joint::kElbowLeft] - rest[Joint::kShoulderLeft]).normalized();
@@ -65,11 +65,11 @@ TEST(RigOrientations, OfARaisedArmAreThoseOfTheTPose) {
   const auto rig = ComputeOrientations(pose);
   const size_t elbow = Index(Joint::kElbowLeft);
   const Vector3d z = rig[elbow] * Vector3d::UnitZ();
-  EXPECT_GT(z.z(), 0.95);  // within 18 degrees: the rig's elbow bends not quite forward
+  EXPECT_GT(z.z(), 0.95);  // within 18 degrees: the rig's elbow does not bend exactly forwards
 }
 
-/// Mean angle between a database's orientations and what its joints tell, over bones whose turn
-/// joints tell well: trunk, thighs, shins, and the shoulders' bones.
+/// Mean angle between a database's orientations and those derived from its joints, over bones whose
+/// axial rotation joints determine well: trunk, thighs, shins, and the bones to the shoulders.
 double MeanOff_deg(const PostureDatabase& database) {
   double sum_rad = 0.0;
   int count = 0;
@@ -83,8 +83,8 @@ double MeanOff_deg(const PostureDatabase& database) {
   return sum_rad / count * 180.0 / M_PI;
 }
 
-// The shipped file is of version 1, which counts turns from hanging arms: unturned they are off by
-// 90 degrees and more.
+// The shipped file has version 1, whose orientations are relative to hanging arms: unconverted they
+// would be off by 90 degrees and more.
 TEST(PostureDatabase, OfVersionOneIsReadInTheConventionOfTheJoints) {
   const auto database =
       PostureDatabase::Load(test::SourceFolder() / "tools/tracker/shipped/authored.ossadb");

@@ -49,7 +49,8 @@ TEST(PostureDatabase, KeepsAPostureWithinTheThresholdOfEveryGivenOne) {
         }
         nearest = std::min(nearest, largest);
       }
-      // The intra filter may drop a posture for one that the inter filter drops in turn: 2 x 0.2.
+      // The intra filter may drop a posture in favour of one that the inter filter drops in turn: 2
+      // x 0.2.
       EXPECT_LT(nearest, 0.4);
     }
   }
@@ -70,8 +71,8 @@ TEST(PostureDatabase, EdgesJoinWhatIsNearBothWays) {
   }
 }
 
-// Plantard 2016 algorithm 1 and eq. 2 written out. One arm goes up and down again, then the other:
-// the way down brings nothing new, but is no gap between what was kept before and after it.
+// Plantard 2016 algorithm 1 and eq. 2 written out. One arm is raised and lowered, then the other:
+// lowering adds no postures, but is no gap between those kept before and after it.
 TEST(PostureDatabase, ConnectsWithinTheStepsThatAClipMakes) {
   PostureClip clip;
   for (double lift = 0.0; lift < 1.5; lift += 0.04)

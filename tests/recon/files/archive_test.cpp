@@ -1,4 +1,4 @@
-// What carries a checksum has it verified: no damage to a .gz, .tar.gz or .zip passes in silence.
+// Checksums are verified: no damage to a .gz, .tar.gz or .zip passes silently.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -52,7 +52,7 @@ std::string Tar() {
   return BytesOf(folder / "x.tar");
 }
 
-// Frames of each clip by its name; {} when it is refused.
+// Frames of each clip by name; {} if it is refused.
 std::map<std::string, size_t> FramesIn(const std::filesystem::path& path) {
   std::map<std::string, size_t> frames;
   try {
@@ -88,7 +88,7 @@ TEST(Archives, CutAnywhereAreRefused) {
   }
 }
 
-// What changes nothing that is read (a time, a name that gzip keeps) may be taken.
+// Bits that do not affect the content (a time stamp, gzip's file name) may be accepted.
 TEST(Archives, WithAnyBitFlippedAreRefusedOrTheSame) {
   const TemporaryFolder folder;
   for (const Sample& sample : Samples()) {
@@ -135,7 +135,7 @@ TEST(Archives, OfTooManyMembersAreRefused) {
   ExpectRefused([&] { ReadSkeletonClips(folder / "x.tar"); }, "at most 100000 members");
 }
 
-// Its table counts them in 16 bits, and any more pass for another archive's.
+// Its table has 16-bit counts, which overflow.
 TEST(Archives, AZipOfTooManyMembersIsRefused) {
   const TemporaryFolder folder;
   std::vector<std::pair<std::string, std::string>> members;

@@ -1,4 +1,4 @@
-// C3D recordings that are longer than the 16 bits of their header can say.
+// C3D recordings longer than the 16-bit counts of their header.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -57,7 +57,8 @@ size_t FramesOf(const std::string& text) {
   return ReadSkeletonStream(stream, "file").frames.size();
 }
 
-/// C3dBytes() of a head 0.6 m above the hips by that coordinate of the file, 1 m and more up.
+/// C3dBytes() with the head 0.6 m above the hips along axis `up` of the file, 1 m and more from the
+/// origin.
 std::string StandingC3d(size_t up, const std::string& y_screen) {
   std::string bytes = C3dBytes();
   for (size_t f = 0; f < 3; ++f) {
@@ -84,7 +85,7 @@ SkeletonSequence ReadText(const std::string& text) {
 
 TEST(C3dUp, IsZOrWhatItsScreenSays) {
   for (const auto& [up, y_screen] :
-       {std::pair{2U, ""}, {2U, "+Z"}, {1U, "+Y"}, {2U, "+Y"}}) {  // the last does not mean it
+       {std::pair{2U, ""}, {2U, "+Z"}, {1U, "+Y"}, {2U, "+Y"}}) {  // the last is wrong
     const auto read = ReadText(StandingC3d(up, y_screen));
     EXPECT_NEAR(At(read, 0, Joint::kHead).y(), 1.6, 1e-6) << up << y_screen;
     EXPECT_NEAR(At(read, 0, Joint::kHipCenter).y(), 1.0, 1e-6) << up << y_screen;
@@ -100,7 +101,7 @@ TEST(C3dUp, IsDoubtedWhereNobodyStandsOnAFloor) {
   EXPECT_NE(read.warnings[0].find("never stands along the axis taken as up"), std::string::npos);
 }
 
-// Names are compared whole where a mapping gives them.
+// Mappings compare complete names.
 TEST(C3dLabels, MayBeFilledWithZeros) {
   std::string bytes = C3dBytes();
   bytes.replace(bytes.find("Head      "), 10, std::string("Hat") + std::string(7, '\0'));

@@ -1,4 +1,4 @@
-// Numbers of files have a point, whatever the locale of the program that reads and writes them.
+// Numbers in files have a decimal point in every locale.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ Files FilesIn(const std::filesystem::path& folder) {
   return files;
 }
 
-/// All kinds of files that this room and the one below write numbers to.
+/// All file formats of recon and depth that contain numbers.
 Files WrittenNow() {
   const test::TemporaryFolder folder;
   for (const char* name : {"x.jsonl", "x.csv", "x.trc", "x.bvh", "x.glb"}) {

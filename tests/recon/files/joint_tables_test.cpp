@@ -1,4 +1,4 @@
-// Tables of joints by name: a line a joint, or a row a frame.
+// Tables of named joints: one joint per line, or one frame per row.
 #include <gtest/gtest.h>
 
 #include <algorithm>

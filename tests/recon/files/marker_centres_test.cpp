@@ -17,11 +17,11 @@ using Eigen::Vector3d;
 
 constexpr double kExact_m = 1e-12;  // a handful of operations on lengths below two metres
 
-/// The room as a camera that looks down to one side has it.
+/// The room's axes for a camera that looks down and to one side.
 const Eigen::Quaterniond kCamFromRoom(Eigen::AngleAxisd(0.3, Vector3d(0.8, 0.0, 0.6)));
 
-/// The pelvis of somebody who stands upright: ASIS 24 cm apart, PSIS 14 cm behind them. In the room
-/// y is up.
+/// The pelvis of a person standing upright: ASIS 24 cm apart, PSIS 14 cm behind them. y is up in
+/// the room.
 Markers Pelvis(double heading_rad) {
   const Eigen::AngleAxisd turn(heading_rad, Vector3d::UnitY());
   const auto at = [&](double x, double z) {
@@ -33,13 +33,13 @@ Markers Pelvis(double heading_rad) {
           {"RPSI", at(-0.04, -0.14)}};
 }
 
-/// From the ASIS of its side to the hip's centre.
+/// From the ASIS of the same side to the hip's centre.
 Vector3d ToHip(const BodyRecord& body, Joint joint, const Vector3d& asis) {
   return body.joints[joint].value().position_m - asis;
 }
 
-// Bell et al. 1990, of the distance between the ASIS: 30 % down, 19 % back, 14 % inwards. Noise of
-// rounding said which way is down: half of all headings had the hips above the pelvis.
+// Bell et al. 1990, as shares of the distance between the ASIS: 30 % down, 19 % back, 14 % inwards.
+// Down must not depend on rounding.
 TEST(MarkerCentres, HipsLieBelowThePelvisWhereverThePersonFaces) {
   constexpr double kWidth_m = 0.24;
   const Vector3d up = kCamFromRoom * Vector3d::UnitY();
@@ -71,7 +71,7 @@ double LongestStep_m(const SkeletonSequence& sequence, Joint joint) {
   return longest_m;
 }
 
-// 5 cm in a hundredth of a second is 18 km/h: no exercise moves a hip so.
+// 5 cm in a hundredth of a second is 18 km/h: faster than a hip in any exercise.
 TEST(MarkerCentres, HipsOfRealPeopleDoNotJump) {
   const std::string path = test::SharedFolder() / "real/uiprmd_kinect_vicon/raw_e05.tar.gz";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";

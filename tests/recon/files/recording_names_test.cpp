@@ -1,4 +1,4 @@
-// Which recordings SOURCE#MEMBER asks for.
+// The recordings selected by SOURCE#MEMBER.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -60,7 +60,7 @@ TEST(RecordingNames, OfNoneIsReadThatComesAfterTheEnd) {
   }
 }
 
-// `walks#walk` was everything in walks/.
+// `walks#walk` must not match the folder name itself.
 TEST(RecordingNames, OfAFolderAreThoseInsideIt) {
   const test::TemporaryFolder folder;
   const std::string walks = folder / "walks";
@@ -87,7 +87,7 @@ TEST(RecordingNames, OfArchivesInAFolderBeginWithTheArchives) {
   EXPECT_EQ(NamesAt(people + "#s010.tar"), Names{"s010/a"});
 }
 
-// What else lies there may be large, or damaged.
+// Other files there may be large or damaged.
 TEST(RecordingNames, OfOtherFilesLeaveArchivesClosed) {
   const test::TemporaryFolder folder;
   WriteWalk(folder / "walks/walk.jsonl", 2);
@@ -96,7 +96,7 @@ TEST(RecordingNames, OfOtherFilesLeaveArchivesClosed) {
   test::ExpectRefused([&] { ReadSkeletons(folder / "walks#run"); }, "expected a whole archive");
 }
 
-// "a: no such file or folder".
+// A '#' in the path itself must not be taken for the separator.
 TEST(RecordingNames, MayFollowAPathWithAHash) {
   const test::TemporaryFolder folder;
   const std::string odd = folder / "a#b";
@@ -120,7 +120,8 @@ TEST(RecordingNames, AreAdvisedAsTheyCanBeSaid) {
                       "found 2: name one, as " + tar + "#truth#1");
 }
 
-// Kinect and Vicon in a folder each: "all.tar#kinect" against "all.tar#vicon" were 0.00 cm apart.
+// If Kinect and Vicon data are in separate folders, "all.tar#kinect" and "all.tar#vicon" select the
+// same files, and their difference is 0.00 cm.
 TEST(RecordingNames, ThatChooseOneOfTwoSkeletonsAreWarnedOfWhereThereAreNone) {
   const test::TemporaryFolder folder;
   const std::string tar = folder / "all.tar";
@@ -134,7 +135,7 @@ TEST(RecordingNames, ThatChooseOneOfTwoSkeletonsAreWarnedOfWhereThereAreNone) {
   EXPECT_TRUE(ReadSkeletonClips(tar)[0].sequence.warnings.empty());
 }
 
-// One's results took the other's place.
+// Otherwise the results of one would overwrite those of the other.
 TEST(RecordingNames, OfAFolderDiffer) {
   const test::TemporaryFolder folder;
   const std::string walks = folder / "walks";

@@ -1,4 +1,4 @@
-// Skeletons recorded with other people's software: small texts made here, one reader at a time.
+// Skeletons recorded with other software: small texts made here, one reader at a time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ TEST(UiPrmdTable, HoldsTwoSkeletonsOfWhichOneIsChosen) {
   options.columns = "kinect";
   const auto kinect = Read(text, options);
   EXPECT_EQ(kinect.frames[0].time_s, 0.5);
-  // The subject's left is x in the file and faces the sensor: camera space has it at negative x.
+  // The subject's left is x in the file and faces the sensor: negative x in camera space.
   ExpectAt(kinect, 0, Joint::kHipCenter, 0.16, 0.80, 2.46);
   ExpectAt(kinect, 0, Joint::kWristLeft, -0.10, 0.20, 0.30);
   EXPECT_FALSE(kinect.frames[0].bodies[0].joints[2].has_value()) << "the SDK 2 neck is not ours";
@@ -178,7 +178,8 @@ TEST(UiPrmdOriginal, GivesJointCentresFromMarkers) {
   EXPECT_FALSE(read.frames[0].bodies[0].joints[13].has_value());
 }
 
-// As many numbers as of Vicon's markers, or of Kinect's joints: degrees were read as lengths.
+// They have as many numbers as Vicon's markers or Kinect's joints: degrees must not be read as
+// lengths.
 TEST(UiPrmdOriginal, AnglesAreNoPlaces) {
   const test::TemporaryFolder folder;
   for (const int columns : {117, 66}) {
@@ -243,7 +244,7 @@ TEST(FrameRate, IsOfFilesThatStateNone) {
   ExpectOwnTimes(ReadSkeletons(folder / "x.c3d", slower), 0.02);
 }
 
-// The times were taken for a recording of their own, which nobody knows.
+// The file of times is not a recording of its own.
 TEST(KinectStreamSaver, IsReadAsTheFolderOrArchiveThatItIs) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "walk");
@@ -362,7 +363,8 @@ TEST(C3d, OfAnotherProcessorIsRefusedByName) {
   EXPECT_NE(ComplaintAbout(bytes).find("processor type"), std::string::npos);
 }
 
-// Every byte of the parameter section turned over, one at a time: read or refused, never worse.
+// Each byte of the parameter section inverted, one at a time: the file is read or refused, without
+// a crash.
 TEST(C3d, SurvivesDamageAnywhere) {
   const std::string good = C3dBytes();
   for (size_t byte = 0; byte < 620; ++byte) {
@@ -382,7 +384,7 @@ void PrintTo(const RealFile& value, std::ostream* out) { *out << value.name; }
 
 class RealSamples : public testing::TestWithParam<RealFile> {};
 
-// People are people: bones of every real file have human lengths once units and maps are right.
+// Bones of all real files have human lengths if units and joint maps are right.
 TEST_P(RealSamples, GiveBodiesOfHumanSize) {
   const std::string path = (test::SharedFolder() / "real" / GetParam().path).string();
   if (!std::filesystem::exists(path.substr(0, path.find('#')))) {
@@ -400,8 +402,8 @@ TEST_P(RealSamples, GiveBodiesOfHumanSize) {
   EXPECT_GT(At(sequence, middle, Joint::kHead).y(), At(sequence, middle, Joint::kKneeLeft).y());
 }
 
-/// Of every frame of a recording of the Kinect SDK 2 the turn of a bone as the SDK has it against
-/// what its joints tell ComputeOrientations: the angle between the bones, and the turn about them.
+/// Compares the SDK's orientations of a bone with those of ComputeOrientations over a Kinect SDK 2
+/// recording: the angle between the bones' axes, and the axial difference.
 struct AgainstSdk2 {
   double apart_rad = 0.0, about_rad = 0.0;
 };
@@ -425,8 +427,9 @@ AgainstSdk2 MedianAgainstSdk2(const SkeletonSequence& sequence, Joint joint) {
   return {median(apart), median(about)};
 }
 
-// docs/kinect_sdk.md: trunk, shoulders and hips are turned as in SDK 2; upper arms and legs, there,
-// a quarter further about themselves. Forearms it turns by the hand, of which joints tell nothing.
+// docs/kinect_sdk.md: trunk, shoulders and hips are oriented as in SDK 2; upper arms and legs
+// differ by a quarter turn about their axes. SDK 2 rotates forearms with the hand, which joints do
+// not determine.
 TEST(RealKinectV2, TurnsBonesAsOursButForAQuarterAboutUpperArmsAndLegs) {
   const std::string path =
       test::SharedFolder() / "real/keraal_kinect_vicon/pairs/G3-Kinect-CTK-P1T1-Unknown-C-0.txt";
@@ -442,7 +445,7 @@ TEST(RealKinectV2, TurnsBonesAsOursButForAQuarterAboutUpperArmsAndLegs) {
   for (const auto& [joint, expected_rad] : about_rad) {
     const AgainstSdk2 median = MedianAgainstSdk2(sequence, joint);
     EXPECT_LT(median.apart_rad, 2.0 * kDegree) << kJointNames[Index(joint)];
-    // A shin's turn the SDK tells by the foot, too: some ten degrees apart.
+    // The SDK derives a shin's axial rotation also from the foot: some ten degrees apart.
     EXPECT_NEAR(median.about_rad, expected_rad, 12.0 * kDegree) << kJointNames[Index(joint)];
   }
 }

@@ -1,4 +1,4 @@
-// Small files that people own, beside the checkout: each comes out as the plain one does.
+// Small files from users, beside the checkout: each is read like the plain one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@ std::filesystem::path Cases() { return test::SharedFolder() / "cases"; }
 struct Case {
   const char* name;
   const char* file;
-  const char* base;     // what it is like
-  double tolerance_m;   // of its digits
-  const char* warning;  // that must be said; "" for none
+  const char* base;     // the plain file
+  double tolerance_m;   // precision of its digits
+  const char* warning;  // expected warning; "" for none
 };
 
 void PrintTo(const Case& value, std::ostream* out) { *out << value.file; }
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"CsvSemicolonComma", "csv/semicolon_comma.csv", "csv/own.csv", kTrc_m, ""}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// It was 5.13 cm: the BVH was brought to the standard body.
+// A BVH must not be retargeted to the standard body.
 TEST(SharedCaseOf, BvhAndTrcOfOneMotionAreTheSame) {
   if (!std::filesystem::exists(Cases())) GTEST_SKIP() << "no " << Cases();
   const auto bvh = ReadSkeletons(Cases() / "base.bvh");

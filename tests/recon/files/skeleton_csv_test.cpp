@@ -1,4 +1,4 @@
-// Our own table gives back what was written into it.
+// Our own table round-trips.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -27,14 +27,14 @@ void ExpectSameFrames(const SkeletonSequence& read, const SkeletonSequence& writ
   }
 }
 
-// With nine significant digits they were all one second.
+// Nine significant digits do not suffice.
 TEST(SkeletonCsv, KeepsSecondsSince1970) {
   SkeletonSequence sequence = ExampleSequence(10);
   for (SkeletonFrame& frame : sequence.frames) frame.time_s += 1.7e9;
   ExpectSameFrames(ThroughCsv(sequence), sequence);
 }
 
-// They came back as one frame with every body.
+// Equal frame numbers do not mean the same frame.
 TEST(SkeletonCsv, KeepsFramesWhoseNumbersStandStill) {
   SkeletonSequence sequence = ExampleSequence(60);
   for (SkeletonFrame& frame : sequence.frames) frame.frame = 0;

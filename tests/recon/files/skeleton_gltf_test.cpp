@@ -1,4 +1,4 @@
-// What tests/python/test_gltf.py does not ask of readers that are not ours.
+// Properties that tests/python/test_gltf.py does not check with other readers.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -56,8 +56,7 @@ TEST(GltfWriter, SaysTheSameEveryTime) {
   EXPECT_EQ(TextOf(folder / "a.glb"), TextOf(folder / "b.glb"));
 }
 
-// Of whoever no fit had seen it was whatever memory held: a misshapen body, or places that are no
-// numbers.
+// People without a fit must not get an uninitialised shape.
 TEST(GltfWriter, WhoseShapeIsNotKnownHasTheMeanBody) {
   const auto body = ShippedBody();
   if (!body) GTEST_SKIP() << "no shipped body";
@@ -78,7 +77,7 @@ TEST(GltfWriter, WhoseShapeIsNotKnownHasTheMeanBody) {
   EXPECT_TRUE(TextOf(folder / "unknown.glb") == TextOf(folder / "mean.glb"));
 }
 
-// Formats of points keep who is not seen as a body without a joint.
+// Point formats represent an unseen person as a body without joints.
 TEST(GltfWriter, ABodyWithoutAJointIsNotThere) {
   const test::TemporaryFolder folder;
   SkeletonSequence lost = ExampleSequence(5);

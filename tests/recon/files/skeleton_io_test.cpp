@@ -48,7 +48,8 @@ TEST_P(EveryWrittenFormat, IsFoundByContentAndReadBack) {
 INSTANTIATE_TEST_SUITE_P(All, EveryWrittenFormat, testing::Values(".jsonl", ".csv", ".trc"),
                          [](const auto& info) { return std::string(info.param + 1); });
 
-// A table of blank rows was read as a person without joints, whom `ossa reconstruct` then made up.
+// A table of blank rows must not become a person without joints, whom `ossa reconstruct` would
+// invent.
 TEST_P(EveryWrittenFormat, OfNobodyIsReadBackAsNobody) {
   const test::TemporaryFolder folder;
   SkeletonSequence nobody = ExampleSequence(3);
@@ -59,7 +60,7 @@ TEST_P(EveryWrittenFormat, OfNobodyIsReadBackAsNobody) {
   for (const SkeletonFrame& frame : read.frames) EXPECT_TRUE(frame.bodies.empty());
 }
 
-// Of who is out of sight for a while the rows are blank.
+// Rows are blank while a person is out of view.
 TEST(TrcFile, KeepsABodyThatIsLostForAWhile) {
   const test::TemporaryFolder folder;
   SkeletonSequence lost = ExampleSequence(3);
@@ -72,7 +73,7 @@ TEST(TrcFile, KeepsABodyThatIsLostForAWhile) {
 
 TEST(BvhFile, HoldsTheSamePostureWithConstantBones) {
   const test::TemporaryFolder folder;
-  // A stiff figure that moves as a whole has constant bones already: nothing is lost.
+  // A rigid figure has constant bones already: nothing is lost.
   SkeletonSequence stiff = ExampleSequence(8);
   for (auto& frame : stiff.frames) {
     for (size_t j = 0; j < kJointCount; ++j) {
@@ -211,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"TrcEndlessLine", ExampleText(".trc") + std::string(2 << 20, '1'), "1 MiB"}),
     [](const testing::TestParamInfo<Wrong>& info) { return info.param.name; });
 
-// A place of 1e300 m once gave an infinite mean error without a word.
+// A position of 1e300 m would give an infinite mean error.
 TEST(SkeletonFiles, WithAPlaceNobodyCanBeAtAreRefusedByFrameAndJoint) {
   std::string text = ExampleText(".jsonl");
   const size_t head = text.find("\"p\":[", text.find("\"Head\""));
@@ -254,7 +255,7 @@ TEST(SkeletonTimes, ThatRunBackwardsOrLeapAreRefusedByLine) {
   }
 }
 
-// Speeds and what is aligned by time would be made of nothing.
+// Speeds and time alignment would be meaningless.
 TEST(SkeletonTimes, ThatStandStillAreRefused) {
   for (const char* extension : {".jsonl", ".trc", ".csv"}) {
     EXPECT_EQ(ComplaintAbout(ExampleTextAt(extension, {1, 1, 1, 1})),
@@ -263,7 +264,7 @@ TEST(SkeletonTimes, ThatStandStillAreRefused) {
   }
 }
 
-// Loggers ask twice as often as a sensor answers; clocks begin anywhere; people make pauses.
+// Loggers poll twice per sensor frame; clocks start anywhere; recordings may pause.
 TEST(SkeletonTimes, MayRepeatOnceBeginAnywhereAndPause) {
   for (const std::vector<double>& times_s : {std::vector<double>{0, 0, 0.1, 0.1},
                                              {-5, -4, 0, 1},
@@ -273,7 +274,7 @@ TEST(SkeletonTimes, MayRepeatOnceBeginAnywhereAndPause) {
   }
 }
 
-// Of Python's zipfile: "\xC3\xA4.jsonl" and "\xC3\xB6.jsonl", a frame with nobody in each.
+// Written by Python's zipfile: "\xC3\xA4.jsonl" and "\xC3\xB6.jsonl", each with one empty frame.
 constexpr std::string_view kZip =
     "504b0304140000080000000021002f1a36fd230000002300000008000000c3a42e6a736f6e6c7b226672616d"
     "65223a302c2274696d655f73223a302c22626f64696573223a5b5d7d0a504b0304140000080000000021002f"
@@ -301,7 +302,7 @@ void WriteBytes(const std::filesystem::path& path, std::string_view hex) {
   }
 }
 
-// They were one recording: libarchive had no name for either.
+// Without a UTF-8 locale libarchive has no name for either.
 TEST(SkeletonArchives, MembersMayBeNamedBeyondAscii) {
   const test::TemporaryFolder folder;
   WriteBytes(folder / "x.zip", kZip);
@@ -311,7 +312,7 @@ TEST(SkeletonArchives, MembersMayBeNamedBeyondAscii) {
   EXPECT_EQ(clips[1].name, "\xC3\xB6");
 }
 
-// What is made of members is written under their names.
+// Results are written under the names of members.
 TEST(SkeletonArchives, MembersWhoseNamesLeadOutAreRefused) {
   const test::TemporaryFolder folder;
   for (const std::string_view zip : kZipsThatLeadOut) {
@@ -320,7 +321,7 @@ TEST(SkeletonArchives, MembersWhoseNamesLeadOutAreRefused) {
   }
 }
 
-// What is made of one would take the other's place.
+// Otherwise results of one would overwrite those of the other.
 TEST(SkeletonClips, ThatDifferByTheirExtensionsAloneKeepThem) {
   const test::TemporaryFolder folder;
   WriteSkeletons(folder / "a.csv", ExampleSequence(3));

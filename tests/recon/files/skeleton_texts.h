@@ -1,6 +1,5 @@
 #pragma once
-// Small recordings in other people's formats, made here: two or three frames of skeletons whose
-// every number differs.
+// Small recordings in other formats, made here: two or three frames in which every number differs.
 #include <cstdint>
 #include <cstring>
 #include <sstream>
@@ -11,7 +10,7 @@
 
 namespace ossa::recon {
 
-/// What is read of a recording with this text, called "file".
+/// Reads a recording with this text, called "file".
 inline SkeletonSequence ReadText(const std::string& text, const SkeletonReadOptions& options = {}) {
   std::istringstream stream(text);
   return ReadSkeletonStream(stream, "file", options);
@@ -143,8 +142,8 @@ inline std::string C3dBytes() {
   return bytes;
 }
 
-/// One of each, for whoever wants them all.
-// Tables of people's own programs, with the names of both SDKs.
+/// One recording of each format.
+// Tables of custom programs, with the names of both SDKs.
 inline std::string JointLines(size_t frames) {
   std::string text;
   for (size_t f = 0; f < frames; ++f) {

@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(SkeletonWriter, EveryFormat,
 
 class LineFormats : public EveryFormat {};
 
-// What is kept is the file of as many frames as there was room for, byte for byte.
+// The kept file is byte for byte that of the frames that fitted.
 TEST_P(LineFormats, OnAFullDiskKeepWholeFrames) {
   const auto frames = ExampleSequence(6, 2).frames;
   std::vector<std::string> whole;
@@ -97,8 +97,8 @@ TEST_P(LineFormats, OnAFullDiskKeepWholeFrames) {
 
 class WholeFormats : public EveryFormat {};
 
-// Their heads need the whole recording, which waits on the disk that is full then: 300 frames of a
-// person are 150 kB there.
+// Their headers need the whole recording, which is buffered on the disk that is then full: 300
+// frames of a person take 150 kB there.
 TEST_P(WholeFormats, OnAFullDiskKeepMostOfTheFramesThatFit) {
   SkeletonWriter writer(path());
   int64_t kept = 0;
@@ -129,7 +129,7 @@ TEST_P(WholeFormats, OnADiskWithoutRoomLeaveNothing) {
 
 INSTANTIATE_TEST_SUITE_P(SkeletonWriter, WholeFormats, testing::Values(".bvh", ".glb"));
 
-// Under its temporary name, where it stays when the process is killed.
+// Under its temporary name, where it remains if the process is killed.
 TEST_P(LineFormats, CanBeReadBeforeTheyAreFinished) {
   SkeletonWriter writer(path());
   for (const SkeletonFrame& frame : ExampleSequence(7).frames) writer.Write(frame);
@@ -152,7 +152,7 @@ TEST(SkeletonWriter, OfTheLongestNameTheOthersFilesAreNamedShorter) {
   EXPECT_TRUE(other.ends_with("_2.bvh")) << other;
 }
 
-// A table begins with the recording, whoever comes later.
+// Tables start with the recording, also for people who appear later.
 TEST(SkeletonWriter, WhoComesLaterHasATableOfAllFrames) {
   const TemporaryFolder folder;
   SkeletonSequence sequence = ExampleSequence(9, 2);
@@ -169,7 +169,7 @@ TEST(SkeletonWriter, WhoComesLaterHasATableOfAllFrames) {
   }
 }
 
-// An SDK's joint that is not seen lies anywhere, at the camera as a rule; a table has no states.
+// An SDK's unseen joint has an arbitrary position, usually the camera's; a table has no states.
 TEST(SkeletonWriter, ATableIsBlankWhereAJointIsNotTracked) {
   const TemporaryFolder folder;
   SkeletonSequence sequence = ExampleSequence(2);

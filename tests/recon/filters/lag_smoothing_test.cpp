@@ -15,7 +15,7 @@ namespace {
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr size_t kHand = 7, kElbow = 5;
 
-/// One person; `place` gives the hand's x, metres, by frame; everything else stands still.
+/// One person; `place` gives the hand's x, metres, by frame; everything else is static.
 template <typename Place>
 SkeletonSequence HandGoing(int frames, const Place& place) {
   SkeletonSequence sequence{"made up", {}};
@@ -68,7 +68,7 @@ TEST_P(Lag, TakesMostOfTheJitterAway) {
   EXPECT_LT(after, (GetParam() == 1 ? 0.45 : 0.25) * before);
 }
 
-// Loggers that ask faster than the sensor answers.
+// Loggers poll faster than the sensor delivers.
 TEST_P(Lag, OfTimesSaidTwiceSmoothsAsOfEachSaidOnce) {
   std::mt19937_64 rng(6);
   std::normal_distribution<double> noise_m(0.0, 0.01);
@@ -82,7 +82,8 @@ TEST_P(Lag, OfTimesSaidTwiceSmoothsAsOfEachSaidOnce) {
   for (size_t f = 0; f < 120; ++f) EXPECT_EQ(HandAt(made_twice, f), HandAt(made_once, f / 2)) << f;
 }
 
-// Two centimetres are what a pair of frames 30 cm apart still says to either side of the jump.
+// Two centimetres: the remaining influence of a pair of frames 30 cm apart on either side of the
+// jump.
 TEST_P(Lag, DoesNotSmearAJump) {
   const auto seen = HandGoing(20, [](int f) { return f < 10 ? 0.0 : 0.4; });
   const auto made = SmoothSequence(seen, options_);

@@ -10,12 +10,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A joint seen with white noise of so much on each axis.
+/// A joint observed with white noise on each axis.
 class NoisyJoint {
  public:
   explicit NoisyJoint(double noise_m) : noise_(0.0, noise_m) {}
   Vector3d At(double x_m) {
-    // One by one: the order in which a call's arguments are drawn is the compiler's.
+    // Separate statements: argument evaluation order is unspecified.
     const double z_m = 3 + noise_(random_), y_m = noise_(random_);
     return {x_m + noise_(random_), y_m, z_m};
   }
@@ -63,7 +63,7 @@ TEST_P(StationaryRamp, IsLetGoBeforeItIsNoticedAndThenDoesNotLag) {
   for (int i = 1; i <= 60; ++i) {
     const double x_m = i * step_m;
     const Vector3d seen = joint.At(x_m), out = average.Step(seen);
-    // While it is held the joint is off by no more than noise: three times that of one axis.
+    // While averaged, the joint's error is at most the noise: three times that of one axis.
     EXPECT_LT(std::abs(out.x() - x_m), std::max(3 * kNoise_m, std::abs(seen.x() - x_m) + 1e-12))
         << "frame " << i;
     // Beyond twice the noise, 14 mm of three axes, nothing is averaged any more.

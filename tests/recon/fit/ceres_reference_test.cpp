@@ -1,5 +1,5 @@
-// Ceres as the slow and exact reference: it differentiates the fit's residuals by itself and
-// minimises them to a standstill.
+// Ceres as a slow but exact reference: it differentiates the fit's residuals itself and minimises
+// to convergence.
 #include "tests/recon/fit/exact_fit.h"
 
 namespace ossa::recon {
@@ -26,8 +26,7 @@ NormalEquations OwnEquations(const PosedSurface& posed, const SeenPerson& seen,
   return equations;
 }
 
-// Image to model, model to image and joints, of a body that is some centimetres beside what is
-// seen.
+// Image to model, model to image and joints, for a body a few centimetres off.
 TEST(CeresReference, HasTheSameGradientAndMatrix) {
   constexpr double kTolerance = 1e-7;  // relative: normals are stored as floats, and no longer unit
   const SurfaceFitOptions options;
@@ -48,8 +47,8 @@ TEST(CeresReference, HasTheSameGradientAndMatrix) {
   }
 }
 
-// Correspondences and robust weights found anew about each minimum. They may come and go for ever
-// between two pixels' neighbours: the last of so many rounds is as good as any.
+// Recomputes correspondences and robust weights about each minimum. They may alternate forever
+// between neighbouring pixels: the last of a fixed number of rounds is as good as any.
 SurfacePose MinimiseFrom(SurfacePose pose, const SeenPerson& seen, const SurfaceFitInput& input,
                          const SurfaceFitOptions& options) {
   constexpr int kMostRounds = 25;
@@ -65,9 +64,9 @@ SurfacePose MinimiseFrom(SurfacePose pose, const SeenPerson& seen, const Surface
   return pose;
 }
 
-// Five damped steps are not the minimum, but half a pixel's size (9 mm) from it at most, on images
-// of the model itself on which minimum and fit are both 9 to 15 mm beside the truth. Compilers draw
-// a pose's numbers in other orders: 1.0 to 2.3 mm by GCC's, 3.9 at most by clang's.
+// Five damped steps do not reach the minimum, but are within half a pixel (9 mm) of it, on images
+// of the model itself for which minimum and fit are both 9 to 15 mm from the truth. Compilers draw
+// a pose's random numbers in different orders: 1.0 to 2.3 mm with GCC's, 3.9 at most with clang's.
 TEST(CeresReference, EndsWhereTheFitDoes) {
   constexpr double kNear_m = 0.0045, kAsGood_m = 0.003;
   const SurfaceFitOptions options;

@@ -27,7 +27,7 @@ Mat3<T> Rotation(const Vec3<T>& turn) {
   return rotation;
 }
 
-/// The body after a motion, in whatever numbers Ceres differentiates with.
+/// The body after a motion, in the number type of Ceres' automatic differentiation.
 template <typename T>
 struct MovedBody {
   std::array<Mat3<T>, kSegmentCount> parent_from, camera_from;

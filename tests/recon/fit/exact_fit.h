@@ -7,8 +7,8 @@
 
 namespace ossa::recon {
 
-/// Something that a place of the body is drawn to: residual root * (place - to_m). `root' root` is
-/// the inverse of its covariance, robust weights included, as they are at one pose.
+/// A target of a point on the body: residual root * (place - to_m). `root' root` is the inverse
+/// covariance, including robust weights, at one pose.
 struct DrawnPlace {
   size_t segment = 0;
   ShapedPlace place;
@@ -16,10 +16,10 @@ struct DrawnPlace {
   Eigen::Matrix3d root = Eigen::Matrix3d::Zero();
 };
 
-/// What the fit minimises at a pose, written down anew from what its options say: correspondences
-/// and robust weights are held, as each of its steps holds them.
+/// The fit's objective at a pose, written independently from its options: correspondences and
+/// robust weights are constant, as within one step of the fit.
 struct ExactProblem {
-  SurfacePose pose;  // unknowns are motion from here
+  SurfacePose pose;  // unknowns are relative to it
   std::vector<DrawnPlace> places;
   ShapeVector known_shape = ShapeVector::Zero();
   double turn_weight = 0.0, shape_weight = 0.0;  // 0: no prior
@@ -37,7 +37,7 @@ struct ExactEquations {
 };
 ExactEquations Differentiate(const ExactProblem& problem);
 
-/// The pose at the minimum, by Ceres' trust region to a standstill.
+/// The pose at the minimum, by Ceres' trust region method to convergence.
 SurfacePose Minimise(const ExactProblem& problem);
 
 }  // namespace ossa::recon

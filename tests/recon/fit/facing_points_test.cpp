@@ -13,13 +13,13 @@ class FacingPointsTest : public testing::Test {
     facing_.Gather(posed_);
   }
 
-  // Squared, with what is added where parts differ.
+  // Squared distance, including the penalty for other parts.
   double Distance2(const SeenPerson::Pixel& pixel, size_t point, double other_m) const {
     const bool other = pixel.part != 0 && pixel.part != posed_.surface().points[point].part;
     return (posed_.at_m()[point] - pixel.at_m).squaredNorm() + (other ? other_m * other_m : 0.0);
   }
 
-  // How much farther than the nearest of all, by their definition, the one that is found is.
+  // How much farther the result is than the true nearest point by definition.
   double TooFar_m2(const SeenPerson::Pixel& pixel, const SurfaceFitOptions& options) const {
     const int found = facing_.Nearest(pixel, options);
     EXPECT_TRUE(posed_.FacesCamera(static_cast<size_t>(found)));
@@ -49,8 +49,8 @@ TEST_F(FacingPointsTest, FindsTheNearestOfAll) {
   }
 }
 
-// A pixel of the left hand that lies where the right one does: what touches its own part comes
-// before what is nearest.
+// A pixel of the left hand at the position of the right one: adjacent parts are preferred over
+// nearer ones.
 TEST_F(FacingPointsTest, PartsThatTouchComeFirst) {
   constexpr uint8_t kHand = 16, kWrist = 14, kOther = 17;
   SurfaceFitOptions options;
@@ -71,7 +71,7 @@ TEST(FacingPoints, WithoutAnyNothingIsNearest) {
   EXPECT_EQ(FacingPoints().Nearest({Eigen::Vector3d(0, 0, 2), 3, 1.0}, SurfaceFitOptions()), -1);
 }
 
-// What lies beside the silhouette is led to it by the shortest way, but for a cell.
+// Points beside the silhouette are assigned its nearest cell, up to one cell.
 TEST(SeenPerson, LeadsBackToTheSilhouetteByTheShortestWay) {
   const SeenSurface seen(RandomPose(2));
   const SurfaceFitInput input = seen.Input(seen.joints_m);

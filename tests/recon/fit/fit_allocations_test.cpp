@@ -1,5 +1,4 @@
-// Counts what the program takes from the heap, operator new and Eigen's own matrices alike: all of
-// it comes by malloc.
+// Counts heap allocations of operator new and Eigen's matrices alike: all use malloc.
 #include <atomic>
 #include <cstdlib>
 
@@ -9,7 +8,7 @@ namespace {
 std::atomic<size_t> taken_from_heap = 0;
 }  // namespace
 
-// A sanitizer's heap is its own.
+// Sanitizers replace the heap.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define OSSA_COUNTS 0
 #elif defined(__clang__)
@@ -36,7 +35,7 @@ TEST(FitAllocations, AreNoneAfterTheFirstFrame) {
   SurfaceFitter fitter(Surface());
   size_t before = taken_from_heap;
   ASSERT_TRUE(fitter.Fit(input));
-  EXPECT_GT(taken_from_heap, before);  // the fitter's memory: what is taken is counted
+  EXPECT_GT(taken_from_heap, before);  // the fitter's own memory: proves that counting works
   before = taken_from_heap;
   const auto fit = fitter.Fit(input);
   EXPECT_EQ(taken_from_heap, before);

@@ -80,7 +80,7 @@ TEST(NormalEquations, StepTakesAPlaceWhereItIsWanted) {
   EXPECT_LT((moved.at_m()[i] - posed.at_m()[i] - off_m).norm(), 1e-4);
 }
 
-// All that is told of a surface's points and turns, as a fit has it.
+// Terms on a surface's points and rotations, as in a fit.
 NormalEquations EquationsOf(const PosedSurface& posed) {
   NormalEquations equations;
   equations.Clear();

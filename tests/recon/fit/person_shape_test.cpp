@@ -14,7 +14,7 @@ std::filesystem::path TemporaryFile() {
          (std::string("ossa_person_") + test->name() + ".ossaperson");
 }
 
-/// As so many frames of a moving person tell it, each fitted with what those before it told.
+/// The shape learned from `frames` frames of a moving person, each fitted with the result so far.
 PersonShape ToldBy(const ShapeVector& shape, int frames, PersonShape person = {}) {
   SurfaceFitter fitter(Surface());
   for (int i = 0; i < frames; ++i) {
@@ -38,7 +38,7 @@ TEST(PersonShape, OfManyFramesIsNearerThanThatOfOne) {
   EXPECT_EQ(many.frames, 8);
 }
 
-// The image is the model's own: stature is right within the error bars that it is told with.
+// Images of the model itself: stature is within its error bars.
 TEST(PersonShape, TellsStatureWithinItsErrorBars) {
   for (const double tall : {-1.5, 0.0, 1.5}) {
     const ShapeVector shape = tall * Surface().stature_by_shape_m.normalized();
@@ -54,7 +54,7 @@ TEST(PersonShape, OfNobodyIsTheMeanBodyAndAsUnsureAsPeopleDiffer) {
   EXPECT_GE(said.sigma_m, Surface().stature_by_shape_m.norm());
 }
 
-// A frame that shows no legs leaves their length as unsure as it was.
+// A frame without legs does not reduce the uncertainty of their length.
 TEST(PersonShape, LearnsNothingFromAFrameThatTellsNothing) {
   PersonShape person = ToldBy(SomeShape(), 3);
   const PersonShape before = person;

@@ -19,8 +19,8 @@ inline const BodySurface& Surface() {
   return surface;
 }
 
-/// Somebody 2.5 m before the camera who faces it, each joint turned at random from how people hold
-/// it in the mean.
+/// A person 2.5 m in front of the camera, facing it, with each joint rotated randomly from its
+/// mean.
 inline SurfacePose RandomPose(unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -36,8 +36,8 @@ inline SurfacePose RandomPose(unsigned seed) {
   return pose;
 }
 
-/// A depth image of a posed surface, each of its points a disc, before a wall at 4 m; and which
-/// pixels are the person's, and their parts.
+/// A depth image of a posed surface, with each point drawn as a disc, in front of a wall at 4 m;
+/// with the person's pixels and their parts.
 struct SeenSurface {
   depth::DepthFrame frame;
   std::vector<int32_t> pixels;

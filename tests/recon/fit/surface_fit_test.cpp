@@ -12,22 +12,21 @@ bool IsFinite(const SurfaceFit& fit) {
   return std::isfinite(fit.score) && fit.pose.shape.allFinite();
 }
 
-// Root mean square over the joints of what the fit says that it may be off by.
+// Root mean square of the errors that the fit states for the joints.
 double SaidError_m(const SurfaceFit& fit) {
   double sum = 0.0;
   for (const Eigen::Matrix3d& covariance_m2 : fit.covariance_m2) sum += covariance_m2.trace();
   return std::sqrt(sum / kJointCount);
 }
 
-constexpr int kUsualIterations = 3 + 5;  // by the options: on joints alone, and with the image
+constexpr int kUsualIterations = 3 + 5;  // by the options: with joints only, then with the image
 
 SurfaceFit UsualFit() {
   const SeenSurface seen(RandomPose(1));
   return SurfaceFitter(Surface()).Fit(seen.Input(Disturbed(seen.joints_m, 0.03, 1))).value();
 }
 
-// What is no person: finite, a poor score, and in no more than twice the iterations that a person
-// takes.
+// Expectations for non-people: finite, a poor score, and at most twice the usual iterations.
 void ExpectPoorButHarmless(const SurfaceFit& fit, double most_score) {
   const SurfaceFit usual = UsualFit();
   EXPECT_TRUE(IsFinite(fit));
@@ -36,7 +35,7 @@ void ExpectPoorButHarmless(const SurfaceFit& fit, double most_score) {
   EXPECT_LE(fit.iterations, 2 * usual.iterations);
 }
 
-// The image is the model's own: joints end nearer to the truth than a third of where they started.
+// Images of the model itself: final joint errors are less than a third of the initial ones.
 TEST(SurfaceFit, FindsTheBodyFromDisturbedJoints) {
   SurfaceFitter fitter(Surface());
   double before_m = 0.0, after_m = 0.0;
@@ -159,7 +158,7 @@ TEST(SurfaceFit, OfAWallTakenForAPersonIsPoorButHarmless) {
   const auto fit = fitter.Fit(seen.Input(seen.joints_m));
   ASSERT_TRUE(fit);
   ExpectPoorButHarmless(*fit, 0.5);
-  EXPECT_EQ(fit->iterations, 2 * kUsualIterations);  // it was tried again
+  EXPECT_EQ(fit->iterations, 2 * kUsualIterations);  // a second fit was tried
   EXPECT_GT(SaidError_m(*fit), SaidError_m(UsualFit()));
 }
 

@@ -1,4 +1,4 @@
-// Cameras are found by people who walk about: made up, seen under a known transform and clock.
+// Estimates camera poses from synthetic walking people, with known transform and clock offset.
 #include "recon/fuse/estimate_extrinsics.h"
 
 #include <gtest/gtest.h>

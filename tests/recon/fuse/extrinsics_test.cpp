@@ -18,7 +18,7 @@ Extrinsics TwoCameras() { return {{.name = "front"}, {"side \"2\"", test::FromTh
 
 class ExtrinsicsFile : public testing::Test {
  protected:
-  // What reading says of the text after one change to it; "" if it is read.
+  // The error of reading the text after one replacement; "" if it is read.
   std::string Said(const std::string& from, const std::string& to) {
     std::string text = ExtrinsicsJson(TwoCameras());
     const size_t at = text.find(from);

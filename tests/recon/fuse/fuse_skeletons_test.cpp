@@ -1,4 +1,4 @@
-// Skeletons of several cameras become one: what each camera knows better, it decides.
+// Fusion of skeletons of several cameras: the more accurate camera decides.
 #include "recon/fuse/fuse_skeletons.h"
 
 #include <gtest/gtest.h>
@@ -179,7 +179,7 @@ TEST(FuseSkeletons, KeepsAnIdWhileEitherCameraLosesItsOwn) {
   EXPECT_EQ(ids, (std::set<int>{1, 2}));
 }
 
-// As formats of points have somebody who is lost.
+// As point formats represent a lost person.
 void LosePlaces(SkeletonSequence& sequence, size_t begin, size_t end) {
   for (size_t f = begin; f < end; ++f) {
     for (auto& joint : sequence.frames[f].bodies[0].joints) {

@@ -11,8 +11,8 @@
 
 namespace ossa::recon::test {
 
-/// Somebody who gestures and walks about on a curve that never repeats, in camera 0's space, at
-/// camera 0's time. `phase_s` tells two people apart, who are then two metres from each other.
+/// A person who gestures and walks along a non-periodic curve, in camera 0's space, at camera 0's
+/// time. `phase_s` distinguishes people, who are two metres apart.
 inline Posture WalkerAt(double t_s, double phase_s = 0.0) {
   Posture posture = InFrontOfCamera(Motion(t_s + phase_s), 1.0, 3.0);
   const Eigen::Vector3d step_m(0.5 * std::sin(0.9 * t_s + phase_s) + (phase_s > 0.0 ? 2.0 : 0.0),
@@ -21,7 +21,7 @@ inline Posture WalkerAt(double t_s, double phase_s = 0.0) {
   return posture;
 }
 
-/// One camera that looks at such people.
+/// A camera that sees such people.
 struct MadeUpCamera {
   Eigen::Isometry3d from_camera_0 = Eigen::Isometry3d::Identity();
   double clock_offset_s = 0.0;  // added to its times: camera 0's

@@ -1,4 +1,4 @@
-// The method `best`: its parts, and the bad inputs it must come through, each by name.
+// The method `best`: its stages, and robustness to bad inputs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::unique_ptr<Reconstructor> MakeBestOne(bool refined_joints = false) {
   return MakeReconstructor(options);
 }
 
-/// Whose hidden joints come from a database that knows the motion, which the prior does not.
+/// Completes hidden joints from a database that contains the motion, which the prior does not.
 std::unique_ptr<Reconstructor> MakeBestByDatabase() {
   ReconstructorOptions options;
   options.database =
@@ -48,7 +48,7 @@ Posture At(double time_s, double scale = 1.0) {
   return test::InFrontOfCamera(test::Motion(time_s), scale);
 }
 
-/// A second and a half of a person seen well; the time of the next frame.
+/// Processes a second and a half of a well-observed person; returns the time of the next frame.
 double SeenWell(Reconstructor& method, double scale = 1.0) {
   for (int f = 0; f < 45; ++f) {
     StepOn(method, test::AllTracked(At(f * kStep_s, scale)), f * kStep_s);
@@ -67,7 +67,7 @@ TEST(Best, KeepsThePostureWhileAllJointsAreMissing) {
   for (int f = 0; f < 6; ++f) {
     const auto made = StepOn(*method, TrackedPosture(), t + f * kStep_s);
     EXPECT_EQ(LargestReliability(made), 0.0);
-    // Nothing is known: the person stays, and comes to rest within a hand's width.
+    // Without observations the person stops within a hand's width.
     EXPECT_LT(test::MeanDistance_m(made.posture, last), 0.1) << f;
   }
 }
@@ -84,7 +84,7 @@ TEST(Best, TakesNanForMissing) {
   EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.05);
 }
 
-// One guess without a number for its confidence must not stay in a filter for good.
+// One guess with a NaN confidence must not corrupt a filter permanently.
 TEST(Best, TakesAConfidenceThatIsNoNumberForNone) {
   const auto method = MakeBestOne();
   double t = SeenWell(*method);
@@ -112,8 +112,7 @@ TEST(Best, FollowsAGuessLittleThatNoDepthImageWasHeldAgainst) {
   EXPECT_LT((made.posture.position_m[hand] - At(t).position_m[hand]).norm(), 0.03);
 }
 
-// What is behind a wall nobody sees, but for cascaded refinement, which was learned to say where it
-// is.
+// Joints behind a wall are invisible, but cascaded refinement was trained to place them.
 TEST(Best, BelievesACloseLookBehindWhatHides) {
   depth::DepthFrame wall;
   wall.camera = depth::KinectV1Camera(320, 240);
@@ -233,7 +232,7 @@ TEST(Best, MakesAHiddenLegUpFromTheOtherAndLeavesWhatIsSeen) {
   EXPECT_LT(seen_m, 0.02);
 }
 
-/// Without some joints, those hung on the others are off by so much in the mean of two seconds.
+/// Mean error over two seconds of joints attached to hidden ones.
 double HiddenError_m(const std::vector<Joint>& hidden, Joint measured) {
   const auto method = MakeBestOne();
   double t = SeenWell(*method), sum_m = 0.0;
@@ -290,7 +289,7 @@ TEST(Best, HoldsAHandThatSnapsToTheOther) {
   EXPECT_LT(off_m, 0.3 * (observed.posture.position_m[7] - At(t).position_m[7]).norm());
 }
 
-// The forearm keeps its length and is nowhere near the other hand: only its speed is wrong.
+// The forearm keeps its length and is far from the other hand: only its speed is implausible.
 TEST(Best, DoubtsAndHoldsAForearmThatIsElsewhereForOneFrame) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
@@ -367,7 +366,7 @@ TEST(WithBoneLengths, HeavyJointsStayWhereTheyAre) {
   EXPECT_LT((moved.position_m[5] - posture.position_m[5]).norm(), 1e-6);
 }
 
-/// Mean distance from a swinging joint seen with noise: what goes in, what comes out a frame later.
+/// Mean error of a swinging joint with noise: of the input, and of the revised output.
 std::pair<double, double> ErrorsOf(double noise_m) {
   std::mt19937_64 rng(17);
   std::normal_distribution<double> normal(0.0, noise_m);

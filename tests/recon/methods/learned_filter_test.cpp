@@ -1,4 +1,4 @@
-// When `best` hears the filter that was learned of a sensor, and when the two it has anyway.
+// When `best` uses the filter learned for a sensor, and when its two built-in ones.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kElbow = 5, kWrist = 6, kHand = 7;
 
-enum Learned { kNothing, kOfThree, kOfOne };  // of one: pulls of a bad sensor
+enum Learned { kNothing, kOfThree, kOfOne };  // of one: influence weights of a bad sensor
 
 std::shared_ptr<const LearnedModels> Models(const std::vector<PosturePair>& pairs) {
   LearnedModels made;
@@ -20,7 +20,7 @@ std::shared_ptr<const LearnedModels> Models(const std::vector<PosturePair>& pair
   return std::make_shared<const LearnedModels>(made);
 }
 
-/// Knows the filter and nothing else of the sensor.
+/// Has learned only the filter of the sensor.
 std::unique_ptr<Reconstructor> MakeBestOne(Learned learned) {
   static const auto three = Models(test::PairsOfPeople(3)), one = Models(test::PairsOfABadSensor());
   ReconstructorOptions options;
@@ -106,8 +106,8 @@ TEST(LearnedFilter, StartsAnewWhereFramesAreMissing) {
   }
 }
 
-/// How far elbow and wrist come to lie from where they would be, at worst, when the hand is off by
-/// so much (or missing) in three frames.
+/// Largest displacement of elbow and wrist if the hand is off by this much (or missing) in three
+/// frames.
 double ArmPulled_m(Learned learned, double hand_off_m) {
   const auto good = SeenBy(5, 60);
   const Made before = Follow(learned, good, Regular);

@@ -1,4 +1,4 @@
-// A tilted camera: every method does as well as with a level one.
+// Tilted cameras: every method is as accurate as with a level one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr double kStep_s = 1.0 / 30.0;
 constexpr double kDegree = M_PI / 180.0;
 
-/// Of a camera that looks down by so much: from a level camera's space to its own.
+/// Transform from a level camera's space to that of a camera tilted down by this much.
 Isometry3d TiltedBy(double tilt_deg) {
   return Isometry3d(AngleAxisd(-tilt_deg * kDegree, Vector3d::UnitX()));
 }
@@ -99,14 +99,14 @@ INSTANTIATE_TEST_SUITE_P(Methods, TiltedCamera,
 TEST(LevelEstimator, LeavesALevelCameraAlone) {
   LevelEstimator level;
   for (int f = 0; f < 60; ++f) {
-    // Somebody who leans by five degrees is no tilt of the camera.
+    // A person leaning by five degrees is not a tilt of the camera.
     const Posture leaning = Moved(At(0), TiltedBy(5.0));
     EXPECT_FALSE(level.Update(test::AllTracked(leaning), std::nullopt)) << f;
   }
 }
 
-/// How far the level after two seconds of somebody who stays so is from the camera's tilt; nothing
-/// where the camera counts as level.
+/// Error of the estimated level after two seconds of this posture; none if the camera counts as
+/// level.
 std::optional<double> LevelledOffBy_deg(const Posture& staying, double tilt_deg) {
   LevelEstimator level;
   std::optional<Isometry3d> made;
@@ -118,7 +118,7 @@ std::optional<double> LevelledOffBy_deg(const Posture& staying, double tilt_deg)
   return std::acos(std::min(1.0, up.y())) / kDegree;
 }
 
-// Whose knees are bent is above the feet all the same.
+// With bent knees the centre of mass is still above the feet.
 TEST(LevelEstimator, IsToldTheTiltByWhoBendsTheKnees) {
   const Posture bent = test::InFrontOfCamera(test::Gesture(0.3, 0.3, 0.3, 0.5));
   const auto off_deg = LevelledOffBy_deg(bent, 20.0);
@@ -127,7 +127,7 @@ TEST(LevelEstimator, IsToldTheTiltByWhoBendsTheKnees) {
   EXPECT_FALSE(LevelledOffBy_deg(bent, 0.0).has_value());
 }
 
-// The middle of whose feet carries nothing.
+// On one leg the midpoint of the feet is not the point of support.
 TEST(LevelEstimator, IsToldNothingByWhoStandsOnOneLeg) {
   Posture raised = test::InFrontOfCamera(test::Gesture(0.3, 0.3, 0.3));
   for (const Joint joint : {Joint::kKneeLeft, Joint::kAnkleLeft, Joint::kFootLeft}) {
@@ -137,7 +137,7 @@ TEST(LevelEstimator, IsToldNothingByWhoStandsOnOneLeg) {
   EXPECT_FALSE(LevelledOffBy_deg(raised, 0.0).has_value());
 }
 
-// Before a level camera somebody lunges to the side, and raises a straight leg.
+// In front of a level camera: a lunge sideways, and a raised straight leg.
 TEST(LevelEstimator, LeavesRealExercisesAlone) {
   const auto file = ossa::test::SharedFolder() / "real/uiprmd_kinect_vicon/raw_e05.tar.gz";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";

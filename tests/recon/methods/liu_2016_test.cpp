@@ -55,7 +55,7 @@ TEST_P(LearnedMethod, TakesALearnedOffsetOff) {
   EXPECT_LT((made.position_m[kHand] - truth.position_m[kHand]).norm(), 0.03);
 }
 
-/// How far the joint is from where it was seen before, frame by frame after the given frames.
+/// Distance of the joint from its earlier observation, frame by frame, after the given frames.
 std::vector<double> Strays_m(Reconstructor& method, size_t joint, TrackingState state,
                              const std::vector<double>& moved_m) {
   const Posture still = test::InFrontOfCamera(test::Gesture(0.8, 0.8, 0.5));
@@ -74,8 +74,9 @@ std::vector<double> Strays_m(Reconstructor& method, size_t joint, TrackingState 
   return strays;
 }
 
-// Eq. 20 extrapolates the method's own output: where a joint is neither reliable (inferred) nor
-// known to the learned model, nothing else may hold it, and one outlier becomes motion for ever.
+// Eq. 20 extrapolates the method's own output: a joint that is neither reliable (inferred) nor
+// known to the learned model has no other constraint, and one outlier would continue as motion
+// forever.
 TEST_P(LearnedMethod, ForgetsOneOutlier) {
   for (const size_t joint : {kHand, kElbow}) {
     for (const TrackingState state : {TrackingState::kTracked, TrackingState::kInferred}) {
@@ -163,8 +164,8 @@ std::vector<double> HandErrors_m(const std::shared_ptr<const LearnedModels>& lea
   return errors;
 }
 
-// What is learned is the optimum of eq. 22, in which reliability has its say: a prediction that is
-// wrong of this person wears off. Its own prediction would teach nothing.
+// The learned samples are optima of eq. 22, which include reliability: predictions that are wrong
+// for this person fade. Learning its own predictions would add nothing.
 TEST(Liu2016, LearnsOfAPersonAndAMovementItDoesNotKnowWhileItRuns) {
   const auto learned = UnevenHand();
   const auto with = HandErrors_m(learned, true), without = HandErrors_m(learned, false);
@@ -179,7 +180,8 @@ std::string NameOfCase(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-// `ossa learn --correction-only`, and what ships: postures came out as they went in.
+// `ossa learn --correction-only` and the shipped file: these methods would return postures
+// unchanged.
 TEST_P(LearnedMethod, RefusesAFileThatHoldsOnlyWhatBestUses) {
   ReconstructorOptions options;
   options.method = GetParam();
@@ -187,7 +189,7 @@ TEST_P(LearnedMethod, RefusesAFileThatHoldsOnlyWhatBestUses) {
   EXPECT_THROW(MakeReconstructor(options), InputError);
 }
 
-// What was learned on of one person is not the next one's.
+// Online samples of one person must not affect the next.
 TEST(Liu2016, ForgetsWhatItLearnedOfAPersonWhenReset) {
   ReconstructorOptions options;
   options.method = "liu-2016";

@@ -19,7 +19,7 @@ TEST_P(MethodRow, IsFoundByItsName) {
   EXPECT_EQ(&RequireMethod(GetParam()), row);
 }
 
-// With nothing to read a method is made unless its row says that it needs something.
+// Without files a method can be created unless its row requires one.
 TEST_P(MethodRow, SaysWhatTheMethodCannotBeMadeWithout) {
   const MethodInfo& row = RequireMethod(GetParam());
   ReconstructorOptions options;
@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(All, MethodRow, testing::ValuesIn(ReconstructionMethods
                            return name;
                          });
 
-// Of the methods that are made with nothing to read.
+// For methods that need no files.
 TEST(MethodTable, SaysWhoKeepsBones) {
   for (const MethodInfo& row : MethodTable()) {
     if (row.database == Reads::kRequired || row.learned == Reads::kRequired) continue;

@@ -9,8 +9,8 @@
 namespace ossa::recon {
 namespace {
 
-// What the database is asked for must be where the hand is, whoever's arm it is on and whatever the
-// hidden elbow is guessed to do.
+// The database query must have the hand where it is, whatever the arm's length and the guess for
+// the hidden elbow.
 TEST(Person, KeepsTheReachOfAHandWhoseArmIsHidden) {
   for (const double scale : {0.6, 1.0, 1.3}) {
     Person person;
@@ -63,7 +63,7 @@ Posture WithHips(double factor) {
   return posture;
 }
 
-// A person who comes in sideways: the first frame has the hips in one another.
+// A person who enters sideways: in the first frame the hips coincide.
 TEST(BodySize, TakesBonesAnewThatAreTypicallyOthersThanInTheFirstFrame) {
   BodySize size({.as_measured = true});
   JointWeights all;
@@ -80,7 +80,7 @@ TEST(BodySize, TakesBonesAnewThatAreTypicallyOthersThanInTheFirstFrame) {
   EXPECT_NEAR(size.lengths_m()[16], hip, 0.03 * hip);
 }
 
-// Of bones seen with noise the lengths of the first frame stay, to the bit.
+// With noisy bones the first frame's lengths are kept, to the bit.
 TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
   BodySize size({.as_measured = true});
   JointWeights all;
@@ -96,7 +96,8 @@ TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
   EXPECT_EQ(size.lengths_m(), first);
 }
 
-// The mean of what the first three frames judge, whatever lies between the joints; then no more.
+// The mean of the first three frames' estimates, whatever the distances between joints; then
+// constant.
 TEST(BodySize, OfBonesThatAreJudgedSettlesInThreeFrames) {
   BodySize size({.as_measured = true});
   JointWeights all;
@@ -126,7 +127,7 @@ TEST(BodySize, OfBonesThatAreJudgedSettlesInThreeFrames) {
   EXPECT_LT(absurd.lengths_m()[7], 3.0 * StandardBoneLengths()[7]);
 }
 
-// A bone that is judged to be another grows; those beside it stay, to the bit.
+// A bone whose estimate changes is adapted; its neighbours are kept, to the bit.
 TEST(BodySize, OfBonesThatAreJudgedOnlyThoseGrowThatAreOthers) {
   BodySize size({.as_measured = true});
   JointWeights all;
@@ -168,7 +169,7 @@ TrackedPosture LongArmed(double lift_rad) {
       Placed(Retargeted(test::Gesture(lift_rad, lift_rad, 0.1), lengths), {{0.1, 0.2, 2.5}, 3.1}));
 }
 
-// Reference lengths are the person's: those of standing postures from before a gap hold after it.
+// Reference lengths belong to the person: those from before a gap remain valid.
 TEST(Person, KeepsReferenceLengthsOverAGap) {
   Person person;
   for (int f = 0; f < 10; ++f) person.Prepare({LongArmed(0.2), f / 30.0, nullptr});

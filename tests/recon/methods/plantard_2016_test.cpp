@@ -17,8 +17,8 @@ std::unique_ptr<Reconstructor> Plantard2016() {
 
 constexpr size_t kLeftHand = 7;
 
-// Sc of sec. 6.1: of a hidden arm nothing is seen, so that the similarity Ss is the same for every
-// way it may be held; continuity chooses the way it was.
+// Sc of sec. 6.1: for a hidden arm the similarity Ss is equal for all positions; continuity selects
+// the last one.
 TEST(Plantard2016, KeepsAHiddenArmAsItWas) {
   const auto method = Plantard2016();
   const Posture truth = test::InFrontOfCamera(test::Gesture(1.5, 0.5, 0.3));

@@ -130,7 +130,7 @@ TEST(MeasureBones, OfARecordingAreKeptFromItsFirstFrameOn) {
   EXPECT_TRUE(MeasureBones(sequence, filter).empty());
 }
 
-// Memory of whoever left for good is given back, but not what was measured.
+// Memory of people who left is freed, but their measurements are kept.
 TEST(MeasureBones, TellsThoseOfPeopleWhoLeftLongAgo) {
   SkeletonSequence sequence = Recording(30, {4});
   const SkeletonSequence later = Recording(30, {9});
@@ -144,7 +144,7 @@ TEST(MeasureBones, TellsThoseOfPeopleWhoLeftLongAgo) {
   for (size_t i = 1; i < kJointCount; ++i) EXPECT_NEAR(bones.at(4)[i], bones.at(9)[i], 1e-3) << i;
 }
 
-// Where a sensor does not see a joint, files have anything: here the camera itself, 2.5 m away.
+// Files have arbitrary positions for unseen joints: here the camera itself, 2.5 m away.
 TEST(ButterworthSequence, TakesNothingFromJointsThatAreNotTracked) {
   SkeletonSequence sequence = Recording(60, {1});
   for (int f = 28; f < 32; ++f) {
@@ -162,7 +162,7 @@ TEST(ButterworthSequence, TakesNothingFromJointsThatAreNotTracked) {
   }
 }
 
-// Loggers that ask faster than the sensor answers.
+// Loggers poll faster than the sensor delivers.
 TEST(ButterworthSequence, FiltersWhatSaysEachTimeTwice) {
   SkeletonSequence twice = Recording(60, {1});
   for (size_t f = 0; f < 60; ++f) {
@@ -180,7 +180,7 @@ TEST(ButterworthSequence, FiltersWhatSaysEachTimeTwice) {
   }
 }
 
-// What comes after an absence is not the next sample, and its length no sampling step.
+// Samples around an absence are not consecutive.
 TEST(ButterworthSequence, BeginsAnewAfterAnAbsence) {
   SkeletonSequence sequence = Recording(120, {1});
   sequence.frames.erase(sequence.frames.begin() + 30, sequence.frames.begin() + 90);

@@ -115,8 +115,8 @@ TEST_P(EveryMethod, SurvivesWhatNoSensorShouldSay) {
   }
 }
 
-// A logger stamps two frames alike that came a frame apart: until the next stamp all is as if it
-// had not. Steps of 1/32 s have no rounding.
+// A logger gives two consecutive frames the same time stamp: the result must be as without the
+// repetition. Steps of 1/32 s have no rounding.
 TEST_P(EveryMethod, RemembersThePersonWhenATimeRepeats) {
   const auto right = Make(), repeating = Make();
   std::mt19937_64 rng(7);
@@ -167,8 +167,8 @@ TEST_P(MethodWithBones, KeepsBoneLengthsConstant) {
   }
 }
 
-// Whatever is seen, from the first frame on: a first frame with an arm too long, noise, somebody
-// else's size for seconds.
+// Whatever is observed, from the first frame on: an arm too long in the first frame, noise, another
+// person's size for seconds.
 TEST_P(MethodWithBones, KeepsBonesThatAreKnown) {
   BoneLengths known = ScaledBoneLengths(1.1);
   known[5] *= 0.9;
@@ -188,7 +188,8 @@ TEST_P(MethodWithBones, KeepsBonesThatAreKnown) {
   EXPECT_EQ(method->Bones(), known);
 }
 
-// The first frame has the right arm half as long again; what is typical is told all the same.
+// In the first frame the right arm is half as long again; the typical length is reported
+// nevertheless.
 TEST_P(MethodWithBones, TellsTheBonesOfAllThatWasSeen) {
   const auto method = Make();
   std::mt19937_64 rng(5);
@@ -213,7 +214,7 @@ std::string NameOfCase(const testing::TestParamInfo<std::string>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(PlainMethods()), NameOfCase);
-// The filters move joints alone and promise nothing of bones.
+// Filters move joints independently and do not preserve bones.
 INSTANTIATE_TEST_SUITE_P(Methods, MethodWithBones,
                          testing::Values("shum-ho-2012", "shum-2013", "plantard-2016", "best"),
                          NameOfCase);

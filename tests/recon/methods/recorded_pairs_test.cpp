@@ -28,7 +28,7 @@ double Largest_m(const std::vector<PosturePair>& pairs) {
   return largest;
 }
 
-// Every reader numbers frames from 0: numbers are shared whatever the rates.
+// All readers number frames from 0: recordings of different rates share numbers.
 TEST(AddPairs, PairsWhatWasAtTheSameTimeWhateverTheRates) {
   for (const double hz : {30.0, 25.0, 60.0, 100.0, 120.0}) {
     std::vector<PosturePair> pairs;
@@ -73,7 +73,7 @@ TEST(AddPairs, TakesNoTruthFromJointsThatAreNotTracked) {
   for (const PosturePair& pair : pairs) EXPECT_EQ(pair.known[7], 0.0);
 }
 
-/// Two people in view at once, each as alone.
+/// Two people in view at once, each recorded as if alone.
 SkeletonSequence Together(SkeletonSequence a, const SkeletonSequence& b) {
   for (size_t f = 0; f < a.frames.size(); ++f) {
     BodyRecord other = b.frames[f].bodies[0];
@@ -84,7 +84,7 @@ SkeletonSequence Together(SkeletonSequence a, const SkeletonSequence& b) {
   return a;
 }
 
-// Filters are learned of what follows in time.
+// Filters are learned from consecutive frames.
 TEST(AddPairs, KeepsThePairsOfAPersonTogether) {
   const test::SeenPerson a = test::Seen(0), b = test::Seen(1);
   const auto seen = Together(test::SequenceOf(a.seen), test::SequenceOf(b.seen));

@@ -38,8 +38,8 @@ Problem MakeProblem(double t_s, bool history) {
   return p;
 }
 
-/// Mean error over a second in which the sensor only guesses, and guesses ever worse, of somebody
-/// who stands still, after two seconds seen well.
+/// Mean error over a second of increasingly bad guesses for a stationary person, after two seconds
+/// of good observations.
 double ErrorWhileAllIsGuessed_m(const std::string& name) {
   ReconstructorOptions options;
   options.method = name;
@@ -198,7 +198,7 @@ TEST(SearchStochastic, BeatsItsStart) {
   }
 }
 
-// Two searches of the same energy: neither leaves a seventh of it to the other.
+// Two searches of the same energy: the results differ by less than a seventh.
 TEST(Searches, OfTheSameEnergyFindTheSame) {
   for (const double t : {0.3, 1.1, 2.4}) {
     const Problem p = MakeProblem(t, true);
@@ -240,7 +240,7 @@ TEST(Shum2013, PosturesThatJoinTheDatabaseHaveTheirTurns) {
   EXPECT_LT(TurnedApart_deg(true), TurnedApart_deg(false) + 5.0);
 }
 
-/// How far the head ends from where it was seen: bowed as nowhere in the database.
+/// Distance of the head from its observation, for a bow that is not in the database.
 double ErrorOfABowedHead_m(bool keep_reliable) {
   ReconstructorOptions options;
   options.method = "shum-2013";

@@ -1,4 +1,4 @@
-// Of a person of whom a few joints are measured, and not the trunk: the rest stays with them.
+// A few measured joints without the trunk: the rest of the body stays with them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ const Measured kSubsets[] = {
     {"OneHipAndHead", {Joint::kHipLeft, Joint::kHead}},
     {"Shoulder", {Joint::kShoulderLeft}}};
 
-/// Of somebody who gestures and whose left wrist and hand a sensor sees 5 cm too low.
+/// Learned from a gesturing person whose left wrist and hand a sensor sees 5 cm too low.
 std::shared_ptr<const LearnedModels> LowHand() {
   std::vector<PosturePair> pairs;
   for (int f = 0; f < 60; ++f) {
@@ -110,7 +110,7 @@ class UnseenTrunk : public testing::TestWithParam<std::tuple<std::string, Measur
   SkeletonSequence recorded_, made_;
 };
 
-// Hips drifted 2.7 m away from walking knees in ten seconds.
+// Hips must not drift away from walking knees.
 TEST_P(UnseenTrunk, StaysWithinReachOfTheMeasuredJoints) {
   constexpr double kSlack = 1.35;    // of the bones' lengths: another person's, and a guess
   constexpr double kSlack_m = 0.05;  // of filters that lag
@@ -164,8 +164,8 @@ Joints AllBut(const Joints& absent) {
 
 class UnseenHandOrWrist : public UnseenTrunk {};
 
-// Of files without hands (UI-PRMD's) hands stayed up to 2 m behind; of those without wrists
-// (ITOP's, NiTE's) wrists up to 0.9 m.
+// Joints that files do not have, such as hands (UI-PRMD) or wrists (ITOP, NiTE), must follow the
+// arm.
 TEST_P(UnseenHandOrWrist, StaysAtTheArm) {
   constexpr double kSlack = 1.35;    // of the bones' lengths: another person's, and a guess
   constexpr double kSlack_m = 0.05;  // of filters that lag
@@ -193,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(
       return name + "_" + std::get<1>(info.param).name;
     });
 
-// Ten seconds of walking of which knees and ankles are marked: hips drifted 2.7 m away.
+// Ten seconds of walking with markers on knees and ankles only.
 class MarkedKneesAndAnkles : public testing::TestWithParam<std::string> {};
 
 TEST_P(MarkedKneesAndAnkles, HipsStayWithinALegOfThemAndTheyWhereTheyWereMarked) {

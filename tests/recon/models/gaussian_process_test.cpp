@@ -113,8 +113,8 @@ TEST(BudgetedSamples, FirstDropsTheSampleWhoseLossTheKlDivergenceFeelsLeast) {
   EXPECT_EQ(std::count(kept.begin(), kept.end(), static_cast<int>(least)), 0);
 }
 
-// Eqs. 10, 12 and 13 written out, over the L nearest centres. The kernels' own widths differ a
-// thousandfold: the widest must not speak for places that are far from its samples.
+// Eqs. 10, 12 and 13 written out, over the L nearest centres. The kernels' own widths differ by a
+// factor of a thousand: the widest must not dominate far from its samples.
 TEST(LocalMixture, WeighsTheNearestModelsByOneKernelForAll) {
   const Samples s = MakeSamples(30);
   std::vector<GaussianProcess> models;

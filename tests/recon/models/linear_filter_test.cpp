@@ -1,4 +1,4 @@
-// The learned filter of `best`: what it learns, of whom, and its place in the file.
+// The learned filter of `best`: what it learns, from whom, and its file format.
 #include "recon/models/linear_filter.h"
 
 #include <gtest/gtest.h>
@@ -163,7 +163,7 @@ TEST(LinearFilter, KnowsNothingOfFramesThatDoNotFollowEachOther) {
   EXPECT_TRUE(LinearFilter::Learn(pairs).empty());
 }
 
-// As of a program that asks more often than its sensor has frames.
+// As recorded by a program that polls faster than its sensor.
 TEST(LinearFilter, LearnsOfFramesThatWereHandedOutTwiceAsOfOthers) {
   std::vector<PosturePair> twice;
   for (const PosturePair& pair : test::PairsOfPeople(3)) twice.insert(twice.end(), 2, pair);

@@ -1,4 +1,4 @@
-// What is left out in turn when a sensor's errors are learned.
+// Cross-validation folds for learning a sensor's errors.
 #include "recon/models/pairs.h"
 
 #include <gtest/gtest.h>

@@ -33,7 +33,7 @@ std::shared_ptr<const PosturePrior> Learned() {
   return prior;
 }
 
-/// What a filter is told of a posture: every joint, to within so much.
+/// An observation of all joints of a posture, with this standard deviation.
 PriorObservation Seeing(const Posture& posture, double sd_m) {
   PriorObservation observation;
   observation.seen = posture;

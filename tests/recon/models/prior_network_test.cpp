@@ -29,12 +29,12 @@ PosturePrior Learned() {
   return prior;
 }
 
-/// As many units, none of which says anything.
+/// A network with zero output.
 PriorNetwork Silent(Eigen::Index units) {
   return {ossa::test::SilentPerceptron({kPriorInputs, units, kBoneDims})};
 }
 
-/// Whatever is seen, the head is to be that much farther forward.
+/// A network that always moves the head forwards by this much.
 PriorNetwork HeadForward(double by_m) {
   PriorNetwork network = Silent(1);
   network.layers[1].bias[kHead + 2] = static_cast<float>(by_m / PriorNetwork::kBoneStep_m);

@@ -17,7 +17,7 @@ constexpr double kFrame_s = 1.0 / 30.0;
 constexpr size_t kHand = 7;
 constexpr int kPeople = 4, kFramesEach = 600;
 
-/// What a sensor that is late by some frames says, and the truth; or errors without a system.
+/// The output of a sensor with latency, and the truth; or random errors.
 PosturePair PairAt(double time_s, double late_s, std::mt19937_64* noise) {
   PosturePair pair;
   pair.known.fill(1.0);
@@ -51,7 +51,7 @@ WindowCorrectionOptions Quick() {
   return options;
 }
 
-/// The left hand's mean error that is left of a person who was not learned from, over the raw one.
+/// Ratio of the left hand's mean error with correction to that without, for an unseen person.
 double ErrorLeftOf(const WindowCorrection& correction, double late_s) {
   FeatureHistory history;
   double before_m = 0.0, after_m = 0.0;
@@ -81,7 +81,7 @@ TEST(WindowCorrection, IsNotLearnedOfOnePerson) {
   EXPECT_TRUE(WindowCorrection::Learn(MakePairs(0.1, false, 1), Quick()).empty());
 }
 
-// Learned of all that there is, it takes a minute: Ctrl-C was heard after that.
+// Training takes a minute; Ctrl-C must stop it earlier.
 TEST(LearnedModels, StopWhileCorrectionsAreLearned) {
   const std::vector<PosturePair> pairs = MakePairs(0.1, false);
   PoseCorrectionOptions pose;
@@ -118,7 +118,7 @@ TEST(FeatureHistory, TakesWhatIsNearestInTimeToEachLag) {
   EXPECT_EQ(window[4], 2.0F);  // 0.54 s before: 0.14 s
 }
 
-// Loggers that ask faster than the sensor answers; only a time far back is another recording's.
+// Loggers poll faster than the sensor delivers; only a large step back is another recording.
 TEST(FeatureHistory, KeepsWhatWasBeforeATimeThatIsSaidTwice) {
   FeatureHistory history;
   const auto feature = [](float value) { return Eigen::VectorXf::Constant(1, value); };

@@ -1,4 +1,4 @@
-// Skeletons written as BVH: whose motion, when, and how much of it.
+// Skeletons written as BVH: whose motion, at which times, and how much of it.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -65,7 +65,7 @@ std::string TextOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Each began at its own first sighting.
+// All files start with the recording, not with each person's first sighting.
 TEST(BvhExport, OfSeveralPeopleIsInStepWithTheRecording) {
   const ossa::test::TemporaryFolder folder;
   const SkeletonSequence truth = TwoPeople();
@@ -83,8 +83,8 @@ TEST(BvhExport, OfSeveralPeopleIsInStepWithTheRecording) {
   }
 }
 
-// What the image does not show of a person is not tracked, wherever a file has it; a method that
-// placed it says how reliable that is.
+// Joints outside the image are not tracked, whatever their position in a file; a method that places
+// them states their reliability.
 TEST(BvhExport, HasJointsThatAreNotTrackedWhereAMethodPlacedThem) {
   for (const bool placed : {false, true}) {
     SkeletonSequence sequence = SeenAt({0.0, 1 / 30.0, 2 / 30.0});
@@ -106,7 +106,7 @@ TEST(BvhExport, HasJointsThatAreNotTrackedWhereAMethodPlacedThem) {
   }
 }
 
-// `Frame Time: 0.033333` of others' files: each time it was written it lost its last frame.
+// `Frame Time: 0.033333` of other files must not lose the last frame when it is written again.
 TEST(BvhExport, KeepsTheLastFrameWhereTimesAreRounded) {
   std::vector<double> times_s;
   for (int f = 0; f < 2000; ++f) times_s.push_back(f * 0.033333);
@@ -123,7 +123,7 @@ TEST(BvhExport, OfNobodyIsRefusedByName) {
   EXPECT_TRUE(std::filesystem::exists(folder / "x.trc"));
 }
 
-// It was a T-pose at the camera.
+// Otherwise the result would be a T-pose at the camera.
 TEST(BvhExport, OfABodyWithoutAnyJointIsRefusedByName) {
   const ossa::test::TemporaryFolder folder;
   SkeletonSequence unseen = SeenAt({0.0, 0.1});
@@ -141,7 +141,7 @@ TEST(BvhExport, OfABodyWithoutAnyJointIsRefusedByName) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
-// A negative id meant the body seen most.
+// Negative ids are valid and do not mean "the body in most frames".
 TEST(BvhExport, IsOfTheBodyAskedForWhateverItsNumber) {
   SkeletonSequence sequence = TwoPeople();
   for (SkeletonFrame& frame : sequence.frames) {
@@ -165,7 +165,7 @@ TEST(BvhExport, WritesTheBytesThatItWouldMakeInMemory) {
       << "a step with too few digits is another rate";
 }
 
-// Of a gap of a day: gigabytes of memory, and a file that was not read again.
+// A gap of a day would need gigabytes of memory and give an unreadable file.
 TEST(BvhExport, ThatNobodyWouldReadIsRefusedByItsLongestGap) {
   const ossa::test::TemporaryFolder folder;
   BvhExportOptions options;
@@ -192,7 +192,7 @@ TEST(BvhExport, ThatIsSurelyTooLongIsRefusedBeforeItIsMade) {
   EXPECT_NO_THROW(WriteSkeletons(folder / "x.jsonl", days));
 }
 
-// As of every other format of one person.
+// As in all other single-person formats.
 TEST(BvhExport, IsReadBackAsBodyOne) {
   const SkeletonSequence read = BvhToSkeleton(SkeletonToBvh(TwoPeople()), "back");
   for (const SkeletonFrame& frame : read.frames) EXPECT_EQ(frame.bodies.at(0).id, 1);

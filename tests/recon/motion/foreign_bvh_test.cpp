@@ -1,4 +1,4 @@
-// BVH of any studio as skeletons: their own size and places, whatever names and axes they have.
+// BVH of any studio as skeletons: with their own size and positions, for arbitrary names and axes.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -21,7 +21,7 @@ SkeletonSequence Read(const std::string& text, const SkeletonReadOptions& option
   return ReadSkeletonStream(stream, "x.bvh", options);
 }
 
-/// The figure's joints are where it has them. Six decimals of a unit and of a degree over 2 m.
+/// Joints are at the figure's positions. Six decimals of a unit and of a degree over 2 m.
 void ExpectFigure(const SkeletonSequence& read, size_t body = 0, double size = 1.0) {
   constexpr double kPrinted_m = 2e-6;
   for (const size_t f : {size_t{0}, read.frames.size() / 2, read.frames.size() - 1}) {

@@ -1,4 +1,4 @@
-// Mocap of any studio on the standard body: what comes out stands as the source does.
+// Mocap of any studio retargeted to the standard body: the result stands like the source.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<MotionClip> Load(const FigureStyle& style, const MocapOptions& optio
   return LoadMocap({folder / "x.bvh"}, options);
 }
 
-/// Farthest apart of any joint in any frame, both bodies with their HipCenter at one place.
+/// Largest distance of any joint in any frame, with both HipCenters at one position.
 double FarthestApart_m(const MotionClip& a, const MotionClip& b) {
   double farthest_m = 0.0;
   for (size_t f = 0; f < a.frames.size(); ++f) {
@@ -39,8 +39,8 @@ double FarthestApart_m(const MotionClip& a, const MotionClip& b) {
   return farthest_m;
 }
 
-// The same motion, of a file whose zero angles are a T-pose. Where the bones lie they agree; trunk
-// and feet are told by places alone, which costs a few degrees.
+// Compared with the same motion in a file whose zero pose is a T-pose. Limb directions agree; trunk
+// and feet, determined by positions only, differ by a few degrees.
 TEST(ForeignMocap, WhoseZeroAnglesAreNoPoseIsRetargetedByPlaces) {
   FigureStyle along_x;
   along_x.bones_along_x = true;
@@ -131,7 +131,7 @@ TEST(ForeignMocap, WhoseSecondPersonHasNoChannelsIsTheFirst) {
   EXPECT_EQ(skeletons.frames.at(0).bodies.size(), 1u);
 }
 
-// macOS packs such files beside those that are meant.
+// macOS stores such files beside the actual ones.
 TEST(ForeignMocap, BesideHiddenFilesIsReadAlone) {
   const ossa::test::TemporaryFolder folder;
   std::ofstream(folder / "x.bvh") << test::FigureBvh();
@@ -158,7 +158,7 @@ TEST(ForeignMocap, ThatAMappingNamesNothingOfIsSaidTo) {
             std::string::npos);
 }
 
-// What lies between its frames would be gigabytes.
+// Interpolated frames would take gigabytes.
 TEST(ForeignMocap, WhoseFrameTimeIsARateIsRefusedBeforeItFillsTheMemory) {
   const ossa::test::TemporaryFolder folder;
   std::string text = test::FigureBvh({.frames = 700});
@@ -169,7 +169,7 @@ TEST(ForeignMocap, WhoseFrameTimeIsARateIsRefusedBeforeItFillsTheMemory) {
                             "frames of 60 s");
 }
 
-// A trunk that turns as a hand does would lie nowhere as the source's.
+// With a wrong mapping (a trunk that rotates like a hand) the result disagrees with the source.
 TEST(ForeignMocap, ThatWouldNotStandAsTheSourceIsRefusedByName) {
   const ossa::test::TemporaryFolder folder;
   std::ofstream(folder / "names.txt")

@@ -8,7 +8,7 @@
 namespace ossa::recon {
 namespace {
 
-// A board at 2 m before a wall at 4 m: x from 0 to 0.4 m, y from -0.4 to 0.4 m.
+// A board at 2 m in front of a wall at 4 m: x from 0 to 0.4 m, y from -0.4 to 0.4 m.
 depth::DepthFrame BoardBeforeWall() {
   depth::DepthFrame frame;
   frame.camera = depth::KinectV1Camera(320, 240);
@@ -47,7 +47,7 @@ TEST(MoveOutOfFreeSpace, OfAJointInTheAirIsTheNearestSilhouetteAndALimbsBreadthW
   EXPECT_NEAR(hidden.z(), 2.0 + FreeSpaceOptions{}.skin_m, 1e-6);
 }
 
-// Behind the board's depth it goes straight behind the board, no deeper than it was.
+// A joint farther than the board moves straight behind it, at its own depth.
 TEST(MoveOutOfFreeSpace, KeepsTheDepthOfWhatIsFartherThanItsCover) {
   const Eigen::Vector3d hidden = MoveOutOfFreeSpace({-0.1, 0.0, 2.5}, BoardBeforeWall());
   EXPECT_NEAR(hidden.z(), 2.5, 1e-9);

@@ -25,7 +25,7 @@ TEST(FusePoses, WeighsEachByTheSquareOfTheErrorThatIsExpectedOfIt) {
   EXPECT_NEAR(fused_m[Joint::kHandLeft].x(), 0.0, 1e-9);
 }
 
-// One says that a foot lies on the desk, the other that it stands below the image: not halfway.
+// One estimate has a foot on the desk, the other below the image: their mean is wrong.
 TEST(FusePoses, OfPlacesThatContradictEachOtherTheSurerOneCounts) {
   const FusionOptions options{
       .sure_m = 0.02, .unsure_m = 0.1, .off_on_real_depth = 1.0, .contradiction = 2.0};

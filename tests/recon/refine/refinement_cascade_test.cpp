@@ -153,8 +153,8 @@ TEST(RefinementCascade, EachStageBeginsWhereTheOneBeforeItEnded) {
   EXPECT_EQ(second->Mirrored().moved[Joint::kHead].x(), -second->moved[Joint::kHead].x());
 }
 
-// The first stage moves the head by a little or by more, and of the knees the one on the side to
-// which the head is put; the second would move all three by 5 cm.
+// The first stage moves the head by little or by more, and of the knees only the one on the side
+// towards which the head moves; the second would move all three by 5 cm.
 TEST(RefinementCascade, JointsThatAStageLeavesAreNotRefinedAgain) {
   Scene scene;
   const auto moved_m = [&](float by_m, Joint joint) {
@@ -265,7 +265,7 @@ TEST(RefinementCascade, FromAboveSamplesTheSameSurfaceOfATurnedImage) {
   EXPECT_GT((level - ComputeStageFeatures(*second, Joint::kHead)).norm(), 0.5F);
 }
 
-// Shoulders and hips above one another as the camera sees them: the axes stay level.
+// Shoulders and hips aligned with the ray: the axes stay level.
 TEST(RefinementCascade, FromAboveABodyThatFacesNowhereKeepsLevelAxes) {
   Scene scene;
   TurnAboutTheAxis(0.0, &scene);

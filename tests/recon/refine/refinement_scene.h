@@ -18,7 +18,8 @@ inline constexpr int kWidth = 160, kHeight = 120;
 inline constexpr double kWall_m = 2.0;
 inline constexpr int kCentre = (kSurfaceGrid / 2) * (kSurfaceGrid + 1);  // of the finer grid
 
-// Somebody two metres away whose surface is a wall that fills the image, all joints 5 cm within.
+// A person two metres away whose surface is a wall that fills the image, with all joints 5 cm
+// inside.
 struct Scene {
   depth::DepthFrame frame;
   std::vector<uint8_t> is_person;
@@ -50,7 +51,7 @@ inline RefinementCascade Silent() {
   return cascade;
 }
 
-// Bones that are the standard ones whoever it is.
+// A network that always estimates standard bones.
 inline Perceptron StandardBones() {
   return ossa::test::SilentPerceptron({kBoneFeatures, kEstimatedBones.size()});
 }
