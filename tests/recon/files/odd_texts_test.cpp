@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "tests/recon/files/skeleton_examples.h"
 #include "tests/recon/files/skeleton_texts.h"
