@@ -137,15 +137,16 @@ void TreeGrower::SortSamples(const GrowingTree& tree) {
   }
 }
 
-// Nothing where one class is left to tell apart.
+// Nothing where too few pixels or only one class are left to split.
 std::optional<TreeGrower::Task> TreeGrower::MakeTask(const GrowingTree& tree, size_t node,
                                                      bool by_context) const {
   const uint32_t* counts = frontier_counts_.data() + (node - tree.frontier_begin) * class_count_;
-  const auto absent = static_cast<size_t>(std::count(counts, counts + class_count_, 0U));
-  if (!by_context && class_count_ - absent < 2) return std::nullopt;
   Task task;
   task.node = node;
   task.pixels = std::accumulate(counts, counts + class_count_, uint64_t{0});
+  if (task.pixels < static_cast<uint64_t>(options_.min_node_pixels)) return std::nullopt;
+  const auto absent = static_cast<size_t>(std::count(counts, counts + class_count_, 0U));
+  if (!by_context && class_count_ - absent < 2) return std::nullopt;
   task.by_context = by_context;
   const size_t labels = by_context ? context_count_ : class_count_;
   for (size_t l = 0; l < labels; ++l) {
@@ -158,9 +159,6 @@ std::optional<TreeGrower::Task> TreeGrower::MakeTask(const GrowingTree& tree, si
 std::vector<TreeGrower::Task> TreeGrower::MakeTasks(const GrowingTree& tree) const {
   std::vector<Task> tasks;
   for (size_t node = tree.frontier_begin; node < tree.nodes.size(); ++node) {
-    const uint32_t* counts = frontier_counts_.data() + (node - tree.frontier_begin) * class_count_;
-    const uint64_t pixels = std::accumulate(counts, counts + class_count_, uint64_t{0});
-    if (pixels < static_cast<uint64_t>(options_.min_node_pixels)) continue;
     Random random(MixSeed(options_.seed, 0xc0, static_cast<uint64_t>(tree_number_), node));
     const bool by_context =
         context_count_ > 1 && tree.level < kContextLevels && random.Unit() < options_.context_share;
