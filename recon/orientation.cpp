@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "recon/smallest_turn.h"
 
@@ -137,6 +138,27 @@ class Solver {
   JointOrientations result_;
 };
 
+/// The rotation about `joint`'s bone from our axes to the SDK 2's, as KERAAL's recordings of the
+/// SDK 2 have it (RealKinectV2 of recon_skeleton_files_test).
+Eigen::Quaterniond Sdk2Turn(Joint joint) {
+  const auto about_y = [](double degrees) {
+    return Eigen::Quaterniond(
+        Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Vector3d::UnitY()));
+  };
+  switch (joint) {
+    case Joint::kElbowLeft:
+    case Joint::kKneeLeft:
+    case Joint::kAnkleLeft:
+      return about_y(-90.0);
+    case Joint::kElbowRight:
+    case Joint::kKneeRight:
+    case Joint::kAnkleRight:
+      return about_y(90.0);
+    default:
+      return Eigen::Quaterniond::Identity();
+  }
+}
+
 }  // namespace
 
 const JointOrientations& RestOrientations() {
@@ -173,6 +195,14 @@ JointOrientations ToAbsolute(const JointOrientations& hierarchical) {
     absolute[i] = (absolute[parent] * hierarchical[i]).normalized();
   }
   return absolute;
+}
+
+Eigen::Quaterniond OrientationFromSdk2(Joint joint, const Eigen::Quaterniond& sdk2) {
+  return sdk2 * Sdk2Turn(joint).conjugate();
+}
+
+Eigen::Quaterniond OrientationToSdk2(Joint joint, const Eigen::Quaterniond& orientation) {
+  return orientation * Sdk2Turn(joint);
 }
 
 }  // namespace ossa::recon

@@ -34,4 +34,11 @@ JointOrientations ToHierarchical(const JointOrientations& absolute);
 /// Inverse of ToHierarchical.
 JointOrientations ToAbsolute(const JointOrientations& hierarchical);
 
+/// An absolute orientation of the Kinect SDK 2 (Body.JointOrientations) in the convention above.
+/// They differ by a quarter turn about the bones that end in elbows, knees and ankles. The SDK 2
+/// rotates wrists and hands about the forearm by thumb and fingers: they stay as they are.
+Eigen::Quaterniond OrientationFromSdk2(Joint joint, const Eigen::Quaterniond& sdk2);
+/// Inverse of OrientationFromSdk2.
+Eigen::Quaterniond OrientationToSdk2(Joint joint, const Eigen::Quaterniond& orientation);
+
 }  // namespace ossa::recon

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "recon/files/skeleton_formats_internal.h"
+#include "recon/orientation.h"
 
 namespace ossa::recon {
 namespace {
@@ -43,6 +44,15 @@ TrackingState ParseState(const TextLines& lines, double number) {
     lines.Fail("a tracking state 0, 1 or 2", fmt::format("{}", number));
   }
   return static_cast<TrackingState>(static_cast<int>(number));
+}
+
+// Stores the SDK's orientation of a joint that has a position. End joints have none in SDK 2: all
+// zero. Nor do seated recordings.
+void PutOrientation(BodyRecord& body, Joint joint, const Eigen::Quaterniond& sdk2) {
+  constexpr double kUnit = 1e-2;  // share of the length
+  if (std::abs(sdk2.norm() - 1) < kUnit) {
+    body.joints[joint]->orientation = OrientationFromSdk2(joint, sdk2.normalized());
+  }
 }
 
 // --- LabanotationSuite: ticks of 100 ns, then x, y, z, state of each joint, a comma at the end.
@@ -93,13 +103,8 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
       const Eigen::Vector3d position(&numbers[7 * j]);
       if (!joint || position.isZero(0.0)) continue;
       PutJoint(body, *joint, position);
-      const Eigen::Quaterniond q(numbers[7 * j + 3], numbers[7 * j + 4], numbers[7 * j + 5],
-                                 numbers[7 * j + 6]);
-      // End joints have no orientation in SDK 2: all zero. Nor do seated recordings.
-      constexpr double kUnit = 1e-2;  // share of the length
-      if (std::abs(q.norm() - 1) < kUnit) {
-        body.joints[*joint]->orientation = q.normalized();
-      }
+      const double* wxyz = &numbers[7 * j + 3];
+      PutOrientation(body, *joint, {wxyz[0], wxyz[1], wxyz[2], wxyz[3]});
     }
     const size_t index = sequence.frames.size();
     sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));
@@ -159,6 +164,18 @@ bool IsNtu(const SkeletonSample& sample) {
   return true;
 }
 
+// The quaternion of a joint's twelve fields; nothing if a part of it is NaN or no number.
+std::optional<Eigen::Quaterniond> NtuOrientation(const TextLines& lines,
+                                                 const std::vector<std::string_view>& fields) {
+  constexpr size_t kW = 7;  // no unit: the quaternion's first field
+  std::array<double, 4> wxyz;
+  for (size_t i = 0; i < wxyz.size(); ++i) {
+    if (!LooksLikeNumber(fields[kW + i])) return std::nullopt;
+    wxyz[i] = NumberIn(lines, fields[kW + i], "w, x, y or z of the orientation");
+  }
+  return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+}
+
 // Reads the rest of a body after its line of ten values; `id` is the first of these.
 BodyRecord ReadNtuBody(TextLines& lines, const std::string& id, std::map<std::string, int>& ids) {
   // Ids are 17-digit numbers; they are renumbered 1, 2, ... in order of appearance.
@@ -173,10 +190,11 @@ BodyRecord ReadNtuBody(TextLines& lines, const std::string& id, std::map<std::st
     if (fields.size() != 12) lines.Fail("12 values of a joint", lines.line());
     const auto joint = JointOfV2(j);
     if (!joint) continue;
-    // All values may be NaN if the joint was not seen; pixels and quaternions are not used.
+    // All values may be NaN if the joint was not seen; pixels are not used.
     const auto place = PlaceIn(lines, {fields[0], fields[1], fields[2]}, "x, y or z");
     if (!place || IsNan(fields[11])) continue;
     PutJoint(body, *joint, *place, ParseState(lines, NumberIn(lines, fields[11], "the state")));
+    if (const auto wxyz = NtuOrientation(lines, fields)) PutOrientation(body, *joint, *wxyz);
   }
   return body;
 }

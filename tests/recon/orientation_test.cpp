@@ -110,6 +110,18 @@ TEST(Orientation, HierarchicalAndAbsoluteAreInverse) {
   }
 }
 
+TEST(Orientation, ToAndFromSdk2AreInverse) {
+  const auto ours = ComputeOrientations(RandomPosture(8));
+  for (size_t i = 0; i < kJointCount; ++i) {
+    const auto joint = static_cast<Joint>(i);
+    const auto sdk2 = OrientationToSdk2(joint, ours[i]);
+    EXPECT_LT(OrientationFromSdk2(joint, sdk2).angularDistance(ours[i]), 1e-7);  // acos near 1
+    // Both have y along the bone.
+    EXPECT_LT((sdk2 * Eigen::Vector3d::UnitY() - ours[i] * Eigen::Vector3d::UnitY()).norm(),
+              kExact);
+  }
+}
+
 TEST(Orientation, IsAUnitQuaternionWhateverComes) {
   Posture posture = RandomPosture(3);
   posture[Joint::kElbowLeft].setConstant(std::numeric_limits<double>::quiet_NaN());
