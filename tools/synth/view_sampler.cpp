@@ -49,7 +49,7 @@ Placement DrawFront(double person_m, Random& random) {
 
 Placement DrawNear(double person_m, Random& random) {
   Placement place;
-  place.distance_m = random.Uniform(0.75, 1.75);
+  place.distance_m = random.Uniform(0.75, 1.7);
   place.height_m = person_m * random.Uniform(0.45, 1.15);
   place.aim_height_m = person_m * random.Uniform(0.55, 0.95);
   place.aside_rad = random.Uniform(-16, 16) * kDegree;

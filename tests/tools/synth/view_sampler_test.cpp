@@ -41,6 +41,24 @@ TEST(ViewSampler, TheWorldsUpIsUpInTheImageAndThePersonsLeftIsImageRightWhenFaci
   EXPECT_NEAR(sample.camera_from_world.linear().determinant(), 1.0, 1e-12);
 }
 
+TEST(ViewSampler, FrontAndNearViewsAreAsFarAsTheirDocumentsSay) {
+  struct Range {
+    View view;
+    double from_m, to_m;
+  };
+  Random random(4, 0);
+  for (const Range& range : {Range{View::kFront, 1.5, 4.0}, Range{View::kNear, 0.7, 1.7}}) {
+    for (int i = 0; i < 500; ++i) {
+      const ViewSample sample = SampleView({.view = range.view}, random);
+      // The person stands at the origin.
+      const Eigen::Vector3d camera_m = sample.camera_from_world.inverse().translation();
+      const double distance_m = std::hypot(camera_m.x(), camera_m.z());
+      EXPECT_GE(distance_m, range.from_m);
+      EXPECT_LE(distance_m, range.to_m);
+    }
+  }
+}
+
 TEST(ViewSampler, AnyCoversEverySideAndDistance) {
   Random random(3, 0);
   int backs = 0;
