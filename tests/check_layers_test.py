@@ -30,31 +30,31 @@ class WithTree(unittest.TestCase):
 
 
 class Modules(WithTree):
-    def test_a_tree_of_even_modules_passes(self):
+    def test_tree_of_even_modules_passes(self):
         self.assertEqual(list(check_layers.broken_rules(self.top)), [])
         self.assertEqual(list(check_layers.broken_sizes(self.top)), [])
 
-    def test_a_module_of_a_fifth_is_too_large(self):
+    def test_module_of_a_fifth_is_too_large(self):
         self.write("depth/a/more.cpp", "int y;\n" * 10)
         self.assertRegex("\n".join(check_layers.broken_sizes(self.top)), r"^depth/a/: 20 of 70 lines")
 
-    def test_a_file_counts_in_the_deepest_module(self):
+    def test_file_counts_in_the_deepest_module(self):
         self.write("recon/fit/fit.cpp", "int y;\n" * 7)
         self.write("recon/posture.cpp", "int y;\n" * 3)
         sizes, _ = check_layers.module_sizes(self.top)
         self.assertEqual((sizes["recon/fit"], sizes["recon"]), (7, 3))
 
-    def test_a_folder_that_the_page_does_not_list_is_told(self):
+    def test_unlisted_folder_is_reported(self):
         self.write("recon/attic/old.cpp", "int y;\n")
         self.assertEqual(list(check_layers.broken_sizes(self.top)),
                          ["docs/architecture.md: expected recon/attic/ in the list of modules"])
 
-    def test_an_upward_dependency_is_told_by_file_and_line(self):
+    def test_upward_dependency_is_reported_by_file_and_line(self):
         self.write("depth/a/up.cpp", '\n#include "recon/posture.h"\n')
         self.assertEqual(list(check_layers.broken_rules(self.top)),
                          ["depth/a/up.cpp:2: depth/ may not include recon/posture.h"])
 
-    def test_two_folders_that_include_each_other_are_told(self):
+    def test_mutual_includes_are_reported(self):
         self.write("depth/a/b.h", '#include "depth/b/a.h"\n')
         self.write("depth/b/a.h", '#include "depth/a/b.h"\n')
         self.assertIn("include each other", "\n".join(check_layers.broken_rules(self.top)))
@@ -69,17 +69,17 @@ class Walk(WithTree):
             for path in (source / folder).glob("*.cpp"):
                 self.write(f"{folder}/{path.name}", path.read_text())
 
-    def test_ours_has_each_step_called_in_turn(self):
+    def test_repository_calls_its_steps_in_order(self):
         self.assertEqual(list(check_layers.broken_path(self.top)), [])
 
-    def test_a_stage_that_calls_an_earlier_step_is_told(self):
+    def test_call_of_an_earlier_step_is_reported(self):
         self.write("tools/tracker/smoothing.cpp", "void Smooth() {\n  ChooseRaw(work);\n}\n")
         self.write("tools/tracker/person.cpp", "void Settle(SkeletonWork& work) {\n  people::DetectPeople(frame);\n}\n")
         told = "\n".join(check_layers.broken_path(self.top))
         self.assertIn("tools/tracker/smoothing.cpp:2: calls ChooseRaw out of turn", told)
         self.assertIn("tools/tracker/person.cpp:2: calls DetectPeople out of turn", told)
 
-    def test_a_step_that_nobody_calls_any_more_is_told(self):
+    def test_step_that_is_never_called_is_reported(self):
         self.write("tools/tracker/track_frame.cpp", "")
         self.assertIn("nobody calls TrackSkeleton", "\n".join(check_layers.broken_path(self.top)))
 

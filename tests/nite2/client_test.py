@@ -1,4 +1,4 @@
-"""libNiTE2.so as the PyPI package `openni` sees it: a whole clip before a virtual camera, user and hand tracker on
+"""libNiTE2.so used through the PyPI package `openni`: a whole clip before a virtual camera, user and hand tracker on
 one device."""
 import math
 import unittest
@@ -15,7 +15,7 @@ DETECTING, IN_POSE, ENTER, EXIT = 1, 2, 4, 8
 
 
 class Moment:
-    """What both trackers said of one depth frame, copied."""
+    """A copy of the results of both trackers for one depth frame."""
 
     def __init__(self, users, hands, tracker):
         self.frame = users.frameIndex
@@ -63,7 +63,7 @@ def play_until_most_arrive(clip, frames):
 
 
 def play(clip, options):
-    """All moments of the clip; whoever is new is tracked, and the hand that waves is followed."""
+    """All moments of the clip; new users are tracked, and the waving hand is followed."""
     device = clients.camera(clip, options)
     users, hands = nite2.UserTracker(device), nite2.HandTracker(device)
     for gesture in (WAVE, CLICK, RAISE):
@@ -105,13 +105,13 @@ class WholeClip(unittest.TestCase):
     def test_most_frames_arrive(self):
         self.assertGreater(len(self.moments), 0.5 * len(self.truth))
 
-    def test_a_user_is_new_once_and_keeps_the_id(self):
+    def test_user_is_new_once_and_keeps_the_id(self):
         states = [m.states[1] for m in self.moments if m.user_ids]
         self.assertTrue(all(m.user_ids == [1] for m in self.moments if m.user_ids))
         self.assertEqual(states[0], 3)
         self.assertEqual(set(states[1:]), {1})
 
-    def test_the_skeleton_is_calibrated_then_tracked(self):
+    def test_skeleton_is_calibrated_then_tracked(self):
         states = [m.skeletons[1] for m in self.moments if m.user_ids]
         self.assertEqual(states[0], 0)
         self.assertIn(1, states)
@@ -123,11 +123,11 @@ class WholeClip(unittest.TestCase):
         self.assertLess(sum(errors) / len(errors), 0.05)
         self.assertGreater(sum(e < 0.10 for e in errors) / len(errors), 0.95)
 
-    def test_what_is_seen_is_trusted(self):
+    def test_visible_joints_have_high_confidence(self):
         trust = [m.confidence[1][joint] for m in self.tracked for joint in PLACES]
         self.assertGreater(sum(trust) / len(trust), 0.7)
 
-    def test_orientations_turn_the_bones_of_a_t_pose_to_where_they_are(self):
+    def test_orientations_rotate_a_t_pose_to_the_pose(self):
         # The right arm points to the image's left, -x, in a T-pose that faces the sensor unmirrored.
         bones = [(3, 5, (-1, 0, 0)), (5, 7, (-1, 0, 0)), (4, 6, (1, 0, 0)), (9, 11, (0, -1, 0))]
         for begin, end, rest in bones:
@@ -139,41 +139,41 @@ class WholeClip(unittest.TestCase):
                 angles.append(math.degrees(math.acos(max(-1, min(1, sum(x * y for x, y in zip(bone, turned)))))))
             self.assertLess(sorted(angles)[len(angles) // 2], 15, (begin, end))
 
-    def test_the_depth_frame_is_of_the_same_moment(self):
+    def test_depth_frame_has_the_same_time(self):
         for m in self.moments:
             self.assertEqual(m.depth_index, m.frame)
         times_us = [m.time_us for m in self.moments]
         self.assertEqual(times_us, sorted(set(times_us)))
 
-    def test_the_user_map_the_box_and_the_centre_of_mass_agree(self):
+    def test_user_map_bounding_box_and_centre_of_mass_agree(self):
         seen = [m for m in self.moments if m.map_box]
         self.assertTrue(seen)
         for m in seen:
             self.assertEqual(m.box, m.map_box)
             self.assertLess(distance(m.mass, m.mass_of_map), 60)
 
-    def test_a_floor_is_below_the_sensor_or_has_no_confidence(self):
+    def test_floor_is_below_the_sensor_or_has_no_confidence(self):
         for m in self.moments:
             self.assertIn(m.floor_confidence, (0.0, 1.0))
             if m.floor_confidence:
                 self.assertLess(m.floor_height_mm, 0)
 
-    def test_psi_is_entered_held_and_left(self):
+    def test_psi_pose_is_entered_held_and_exited(self):
         states = [m.poses[1][PSI] for m in self.between(5.6, 8.8)]
         self.assertEqual([states.count(s) for s in (ENTER, EXIT)], [1, 1])
         self.assertLess(states.index(ENTER), states.index(EXIT))
         self.assertTrue(all(m.poses[1][PSI] == IN_POSE for m in self.between(6.8, 7.7)))
 
-    def test_crossed_hands_are_entered_held_and_left(self):
+    def test_crossed_hands_pose_is_entered_held_and_exited(self):
         states = [m.poses[1][CROSSED] for m in self.between(8.4, 11.2)]
         self.assertEqual([states.count(s) for s in (ENTER, EXIT)], [1, 1])
         self.assertTrue(all(m.poses[1][CROSSED] == IN_POSE for m in self.between(9.6, 10.3)))
 
-    def test_no_pose_is_seen_where_there_is_none(self):
+    def test_no_pose_is_detected_where_there_is_none(self):
         for m in self.between(0.5, 5.0):
             self.assertEqual(m.poses[1], [DETECTING, DETECTING])
 
-    def test_a_wave_a_click_and_a_raised_hand_are_completed_when_they_are_made(self):
+    def test_wave_click_and_raised_hand_complete_at_their_time(self):
         done = {kind: [m.frame / 30 for m in self.moments for k, state, _ in m.gestures
                        if (k, state) == (kind, COMPLETED)] for kind in (WAVE, CLICK, RAISE)}
         self.assertTrue(any(1.6 < t < 5.0 for t in done[WAVE]), done)
@@ -181,7 +181,7 @@ class WholeClip(unittest.TestCase):
         self.assertTrue(any(1.5 < t < 5.0 for t in done[RAISE]), done)
         self.assertTrue(all(t < 5.2 for t in done[WAVE]), done)
 
-    def test_the_waving_hand_is_followed_by_its_id(self):
+    def test_waving_hand_keeps_its_id(self):
         followed = [(m.hand_frame, state, at) for m in self.moments for hand, state, at in m.hands
                     if hand == self.followed]
         self.assertEqual(followed[0][1], 1)
@@ -191,7 +191,7 @@ class WholeClip(unittest.TestCase):
         self.assertLess(sum(errors) / len(errors), 0.10)
 
 
-    def test_a_hand_near_the_border_of_the_image_touches_it(self):
+    def test_hand_near_the_image_border_touches_the_field_of_view(self):
         followed = [(state, pixel_of(self.truth[m.hand_frame]["HandRight"])) for m in self.moments
                     for hand, state, _ in m.hands if hand == self.followed]
         near = [state & TOUCHING for state, (u, v) in followed if min(u, v, 320 - u, 240 - v) < 14]

@@ -1,4 +1,4 @@
-"""What the tests of NiTE's interface share: where things are, the clip, and the PyPI package `openni` started."""
+"""Shared by the tests of the NiTE interface: paths, the clip, and the started PyPI package `openni`."""
 import json
 import math
 import os

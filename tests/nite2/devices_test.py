@@ -1,4 +1,4 @@
-"""libNiTE2.so on devices as programs set them, and misused as programs do: the PyPI package `openni` is the client."""
+"""libNiTE2.so on devices in the modes that programs set, and its misuse; the client is the PyPI package `openni`."""
 import ctypes
 import pathlib
 import re
@@ -17,7 +17,7 @@ BAD_USER_ID = 2
 
 
 def status_of(call, *arguments):
-    """What a function of the C interface answers; the package makes exceptions of errors."""
+    """The status of a function of the C interface; the package turns errors into exceptions."""
     try:
         return int(call(*arguments))
     except clients.NiteError as error:
@@ -75,13 +75,13 @@ class Devices(WithAClip):
         self.assertGreater(len(seen), 5)
         self.assertLess(sum(errors) / len(errors), 0.05)
 
-    def test_unmirrored(self):
+    def test_joints_match_unmirrored_images(self):
         self.check_left_is_left(track(clients.camera(self.clip, "?loop=1")))
 
-    def test_mirrored_as_the_device_comes(self):
+    def test_joints_match_images_mirrored_by_default(self):
         self.check_left_is_left(track(clients.camera(self.clip, "?loop=1&mirror=1")), mirrored=True)
 
-    def test_mirrored_by_the_program(self):
+    def test_joints_match_images_mirrored_by_the_program(self):
         device = clients.camera(self.clip, "?loop=1&speed=1.0")
         stream = device.create_depth_stream()
         stream.set_mirroring_enabled(True)
@@ -89,7 +89,7 @@ class Devices(WithAClip):
         self.check_left_is_left(track(device), mirrored=True)
         stream.close()
 
-    def test_half_the_size(self):
+    def test_joints_match_images_of_half_the_size(self):
         device = clients.camera(self.clip, "?loop=1&fps=30")
         stream = device.create_depth_stream()
         stream.set_video_mode(openni2.c_api.OniVideoMode(
@@ -105,7 +105,7 @@ class Devices(WithAClip):
         self.check_left_is_left(track(device))
         stream.close()
 
-    def test_conversions_are_inverse_of_each_other(self):
+    def test_conversions_are_inverses(self):
         tracker = nite2.UserTracker(clients.camera(self.clip, "?loop=1&speed=1.1"))
         x, y = tracker.convert_depth_coordinates_to_joint(500, 100, 2500)
         self.assertGreater(x, 0)  # right of the middle
@@ -121,21 +121,21 @@ class Devices(WithAClip):
         self.assertAlmostEqual(hands.convert_hand_coordinates_to_depth(x, y, 2500)[0], 500, places=1)
         hands.close()
 
-    def test_a_recording_is_played(self):
+    def test_recording_is_played(self):
         recording = clients.WORK / "short.oni"
         subprocess.run([clients.BUILD / "bin" / "ossa", "record", self.clip, "--out", recording, "--quiet"], check=True)
         seen = track(openni2.Device(str(recording).encode()))
         self.assertGreater(len(seen), 5)
         self.assertTrue(all(joints[4].x > joints[5].x for _, joints in seen), "the left elbow is on the image's right")
 
-    def test_the_first_device_is_opened_where_none_is_given(self):
+    def test_first_device_is_opened_by_default(self):
         code = ("import os; os.environ['OSSA_VIRTUAL_DEVICE'] = 'ossa://%s?loop=1'\n" % self.clip +
                 "import clients, openni.nite2 as n\nclients.start()\nt = n.UserTracker.open_any()\n"
                 "h = n.HandTracker.open_any()\nprint(t.read_frame().userMap.width, len(h.read_frame().hands))\n"
                 "clients.stop()")
         self.assertEqual(run_python(code).stdout, "640 0\n")
 
-    def test_two_trackers_on_two_devices(self):
+    def test_two_trackers_run_on_two_devices(self):
         small = clients.make_clip("small", seed=2)
         devices = [clients.camera(self.clip, "?loop=1&speed=1.2"), clients.camera(small, "?loop=1&speed=1.2")]
         trackers = [nite2.UserTracker(device) for device in devices]
@@ -147,7 +147,7 @@ class Devices(WithAClip):
         for tracker in trackers:
             tracker.close()
 
-    def test_a_kinect_registers_depth_to_its_colour_camera(self):
+    def test_kinect_registers_depth_to_its_colour_camera(self):
         fakenect, dump = "/usr/lib/x86_64-linux-gnu/fakenect", clients.WORK / "dump"
         if not clients.pathlib.Path(fakenect).is_dir():
             self.skipTest("no fakenect: " + fakenect)
@@ -165,8 +165,8 @@ class Devices(WithAClip):
         self.assertEqual(result.stdout, "True\n", result.stderr)
 
 
-class Asking(WithAClip):
-    """What programs ask of a tracker beside its frames."""
+class Functions(WithAClip):
+    """The functions of a tracker beside its frames."""
 
     def setUp(self):
         self.device = clients.camera(self.clip, "?loop=1")
@@ -183,7 +183,7 @@ class Asking(WithAClip):
                 return users[0]
         return self.fail("nobody is seen")
 
-    def test_the_version_is_that_of_the_interface(self):
+    def test_version_is_that_of_the_interface(self):
         version = nite2.get_version()
         self.assertEqual((version.major, version.minor), (2, 2))
 
@@ -206,18 +206,18 @@ class Asking(WithAClip):
         self.tracker.stop_all_pose_detection(user)
         self.assertEqual(self.user()[2], [0, 0])
 
-    def test_users_who_are_not_there_are_refused(self):
+    def test_absent_users_are_refused(self):
         self.assertEqual(status_of(_nite2.niteStartSkeletonTracking, self.tracker._handle, 7), BAD_USER_ID)
         self.assertEqual(status_of(_nite2.niteStartPoseDetection, self.tracker._handle, 7, 0), BAD_USER_ID)
 
-    def test_smoothing_is_kept_within_0_and_1(self):
+    def test_smoothing_is_clamped_to_0_and_1(self):
         self.tracker.skeleton_smoothing_factor = 0.75
         self.assertEqual(self.tracker.skeleton_smoothing_factor, 0.75)
         for wrong in (-0.1, 1.1, float("nan")):
             self.assertNotEqual(status_of(_nite2.niteSetSkeletonSmoothing, self.tracker._handle, wrong), 0)
         self.assertEqual(self.tracker.skeleton_smoothing_factor, 0.75)
 
-    def test_with_all_smoothing_nothing_moves(self):
+    def test_full_smoothing_freezes_joints(self):
         self.tracker.start_skeleton_tracking(self.user()[0])
         while self.user()[1] != TRACKED:
             pass
@@ -248,7 +248,7 @@ class Asking(WithAClip):
             frame.close()
         hands.close()
 
-    def test_listeners_are_told_of_frames_until_they_are_removed(self):
+    def test_listeners_are_called_until_they_are_removed(self):
         for tracker, listener in ((self.tracker, nite2.UserTrackerListener),
                                   (nite2.HandTracker(self.device), nite2.HandTrackerListener)):
             told = []
@@ -273,7 +273,7 @@ class Asking(WithAClip):
 class Misuse(WithAClip):
     CLIP = ("misuse",)
 
-    def test_every_function_that_the_package_declares_is_exported_and_has_its_row(self):
+    def test_every_function_of_the_package_is_exported_and_documented(self):
         declared = set(re.findall(r"\bnite[A-Z]\w+", pathlib.Path(_nite2.__file__).read_text()))
         table = set(re.findall(r"\bnite[A-Z]\w+", (clients.HERE.parents[1] / "docs" / "nite2.md").read_text()))
         self.assertEqual(len(declared), 39)
@@ -281,7 +281,7 @@ class Misuse(WithAClip):
         library = ctypes.CDLL(str(clients.BUILD / "lib" / "ossa" / "nite2" / "libNiTE2.so"))
         self.assertEqual([name for name in declared if not hasattr(library, name)], [])
 
-    def test_it_loads_again_after_it_was_unloaded(self):
+    def test_library_loads_again_after_unloading(self):
         for _ in range(3):
             tracker = nite2.UserTracker(clients.camera(self.clip, "?loop=1"))
             self.assertEqual(tracker.read_frame().userMap.width, 320)
@@ -305,7 +305,7 @@ class Misuse(WithAClip):
             self.assertEqual(status_of(release, tracker._handle, other), 0)
             tracker.close()
 
-    def test_a_closed_tracker_and_null_are_errors(self):
+    def test_closed_trackers_and_null_are_errors(self):
         tracker = nite2.UserTracker(clients.camera(self.clip, "?loop=1"))
         handle = tracker._handle
         tracker.close()
@@ -318,7 +318,7 @@ class Misuse(WithAClip):
             self.assertFalse(_nite2.niteIsSkeletonTracking(bad, 1))
             _nite2.niteStopSkeletonTracking(bad, 1)
 
-    def test_an_unplugged_device_is_an_error_within_seconds(self):
+    def test_unplugged_device_is_an_error_within_seconds(self):
         tracker = nite2.UserTracker(clients.camera(self.clip, "?unplug_after=10"))
         began = time.monotonic()
         with self.assertRaises(clients.NiteError):
@@ -327,14 +327,14 @@ class Misuse(WithAClip):
         self.assertLess(time.monotonic() - began, 10)
         tracker.close()
 
-    def test_a_camera_that_falls_silent_is_an_error_within_seconds(self):
+    def test_camera_that_stops_delivering_is_an_error_within_seconds(self):
         tracker = nite2.UserTracker(clients.camera(self.clip, "?stall_after=5"))
         with self.assertRaises(clients.NiteError):
             while True:
                 tracker.read_frame().close()
         tracker.close()
 
-    def test_a_tracker_closed_by_another_thread_ends_the_wait(self):
+    def test_closing_in_another_thread_ends_the_wait(self):
         tracker = nite2.UserTracker(clients.camera(self.clip, "?stall_after=1"))
         handle, answers = tracker._handle, []
 
@@ -350,7 +350,7 @@ class Misuse(WithAClip):
         self.assertFalse(waiting.is_alive())
         self.assertEqual(answers[-1], 1)
 
-    def test_a_tracker_may_be_closed_by_its_own_callback(self):
+    def test_callback_may_close_its_tracker(self):
         tracker = nite2.UserTracker(clients.camera(self.clip, "?loop=1"))
         handle, closed = tracker._handle, []
 
@@ -364,14 +364,14 @@ class Misuse(WithAClip):
         listener.close()
         self.assertNotEqual(status_of(_nite2.niteShutdownUserTracker, handle), 0)
 
-    def test_the_device_may_be_closed_before_the_tracker(self):
+    def test_device_may_be_closed_before_the_tracker(self):
         device = clients.camera(self.clip, "?loop=1")
         tracker = nite2.UserTracker(device)
         device.close()
         self.assertEqual(tracker.read_frame().userMap.width, 320)
         tracker.close()
 
-    def test_programs_that_close_nothing_end_well(self):
+    def test_program_that_closes_nothing_exits_normally(self):
         code = ("import clients, openni.nite2 as n, os, sys\nclients.start()\n"
                 "t = n.UserTracker(clients.camera('%s', '?loop=1'))\nf = t.read_frame()\n" % self.clip +
                 "print(f.userMap.width)\nsys.stdout.flush()\n")
@@ -379,7 +379,7 @@ class Misuse(WithAClip):
             result = run_python(code + end)
             self.assertEqual((result.returncode, result.stdout), (0, "320\n"), result.stderr)
 
-    def test_frames_that_are_never_released_do_not_fill_the_memory(self):
+    def test_unreleased_frames_do_not_fill_the_memory(self):
         code = ("import clients, openni.nite2 as n, resource\nclients.start()\n"
                 "t = n.UserTracker(clients.camera('%s', '?loop=1&speed=20'))\n" % self.clip +
                 "peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024\n"
@@ -390,7 +390,7 @@ class Misuse(WithAClip):
         result = run_python(code)
         self.assertEqual(result.stdout, "True\n", result.stderr)
 
-    def test_no_tracker_opens_where_there_is_no_device(self):
+    def test_tracker_fails_to_open_without_a_device(self):
         code = "import clients, openni.nite2 as n\nclients.start()\nn.UserTracker.open_any()"
         self.assertIn("NiteError", run_python(code).stderr)
 

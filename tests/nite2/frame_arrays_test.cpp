@@ -1,4 +1,4 @@
-// What a frame of the C++ interface hands out, over a C interface of ours.
+// Arrays of a frame of the C++ interface, over a stand-in for the C interface.
 #include <gtest/gtest.h>
 
 #include "tools/nite2/include/NiTE.h"
@@ -18,7 +18,7 @@ NiteStatus niteUserTrackerFrameRelease(NiteUserTrackerHandle, NiteUserTrackerFra
 namespace {
 
 // Programs take the array once, before their loop.
-TEST(FrameArrays, AreThoseOfTheFrameThatWasReadLast) {
+TEST(FrameArrays, BelongToTheLastFrameRead) {
   NiteUserData first[1] = {}, second[2] = {};
   first[0].id = 1, second[0].id = 2, second[1].id = 3;
   NiteUserTrackerFrame frames[2] = {};

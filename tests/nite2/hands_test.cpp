@@ -23,7 +23,7 @@ int StateAfter(FollowedHands& hands, const std::vector<SeenHand>& seen, double t
   return all.empty() ? -1 : static_cast<int>(all.front().state);
 }
 
-TEST(FollowedHands, GoOnAsTheirBodyComesIntoViewAndGoes) {
+TEST(FollowedHands, ContinueAsTheirBodyEntersAndLeavesTheView) {
   FollowedHands hands;
   hands.Start({0, 0, 1});
   EXPECT_EQ(StateAfter(hands, {HandOf(-1, false, {0, 0, 1})}, 0), NITE_HAND_STATE_NEW);
@@ -33,7 +33,7 @@ TEST(FollowedHands, GoOnAsTheirBodyComesIntoViewAndGoes) {
   EXPECT_EQ(StateAfter(hands, {HandOf(-2, false, {0.1, 0.1, 1})}, 1.0), NITE_HAND_STATE_TRACKED);
 }
 
-TEST(FollowedHands, AreNotTakenForTheOtherHandOrAnotherBodys) {
+TEST(FollowedHands, AreNotConfusedWithOtherHands) {
   FollowedHands hands;
   hands.Start({0, 0, 1});
   StateAfter(hands, {HandOf(3, true, {0, 0, 1})}, 0);
@@ -53,7 +53,7 @@ depth::DepthFrame ForearmBeforeAWall() {
   return frame;
 }
 
-TEST(LoneHands, AreTheFreeEndsOfArms) {
+TEST(LoneHands, AreFoundAtTheFreeEndsOfArms) {
   LoneHands hands;
   const auto seen = hands.Step(ForearmBeforeAWall(), {}, {}, {});
   ASSERT_EQ(seen.size(), 1U);
@@ -62,7 +62,7 @@ TEST(LoneHands, AreTheFreeEndsOfArms) {
   EXPECT_LT(seen[0].sample.elbow_m.y(), -0.2);
 }
 
-TEST(LoneHands, AreNeitherUsersNorAtABodysHand) {
+TEST(LoneHands, AreNotFoundOnUsersOrAtABodysHand) {
   tracker::BodyFrame bodies;
   bodies.users = depth::Image<uint8_t>(kWidth, kHeight);
   std::fill(bodies.users.data.begin(), bodies.users.data.end(), uint8_t{1});
@@ -71,7 +71,7 @@ TEST(LoneHands, AreNeitherUsersNorAtABodysHand) {
       LoneHands().Step(ForearmBeforeAWall(), {}, {HandOf(1, true, {0.1, 0, 1})}, {}).empty());
 }
 
-TEST(LoneHands, AreNotPlacesOfAWall) {
+TEST(LoneHands, AreNotFoundOnAWall) {
   depth::DepthFrame wall = ForearmBeforeAWall();
   std::fill(wall.depth_mm.begin(), wall.depth_mm.end(), uint16_t{1000});
   EXPECT_TRUE(LoneHands().Step(wall, {}, {}, {Eigen::Vector3d(0, 0, 1)}).empty());

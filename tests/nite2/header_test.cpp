@@ -1,4 +1,4 @@
-// What public programs do with the C++ interface's types, over a C interface of ours.
+// Uses of the C++ types that occur in public programs, over a stand-in for the C interface.
 #include <gtest/gtest.h>
 
 #include "tools/nite2/include/NiTE.h"
@@ -20,7 +20,7 @@ NiteStatus niteShutdownUserTracker(NiteUserTrackerHandle) {
 namespace {
 
 // ofxNiTE2 hands out its tracker by value; others assign a fresh one to it.
-TEST(Trackers, AreClosedOnceWithTheLastCopy) {
+TEST(Trackers, AreClosedWithTheirLastCopy) {
   closed = 0;
   {
     nite::UserTracker tracker;
@@ -46,7 +46,7 @@ TEST(Trackers, AreClosedForAllCopiesByDestroy) {
 }
 
 // The Cinder block makes planes of its own.
-TEST(PlanesAndBoxes, AreMadeOfTwoPoints) {
+TEST(PlanesAndBoxes, AreConstructedFromTwoPoints) {
   const nite::Plane plane(nite::Point3f(1, 2, 3), nite::Point3f(0, 1, 0));
   EXPECT_EQ(plane.point.z, 3);
   EXPECT_EQ(plane.normal.y, 1);

@@ -12,7 +12,7 @@ LOST, NEW, TRACKED, TOUCHING = 0, 1, 2, 4
 
 
 class Moment:
-    """What a hand tracker said of one depth frame, copied."""
+    """A copy of the results of a hand tracker for one depth frame."""
 
     def __init__(self, frame):
         self.time_s = frame.frameIndex / arm_clip.RATE_HZ
@@ -54,7 +54,7 @@ class Arm(unittest.TestCase):
         """(time, state, place) of a hand by id."""
         return [(m.time_s, *m.hands[hand]) for m in self.moments if hand in m.hands]
 
-    def test_the_hand_nearest_to_the_asked_place_is_followed_until_it_goes(self):
+    def test_nearest_hand_is_tracked_until_it_leaves(self):
         way = self.way_of(self.near)
         self.assertEqual(way[0][1] & ~TOUCHING, NEW)
         self.assertEqual({state & ~TOUCHING for _, state, _ in way[1:-1]}, {TRACKED})
@@ -64,16 +64,16 @@ class Arm(unittest.TestCase):
         self.assertLess(max(errors), 0.10)
         self.assertLess(sum(errors) / len(errors), 0.06)
 
-    def test_where_no_hand_is_it_is_lost_at_once(self):
+    def test_place_without_a_hand_is_lost_at_once(self):
         self.assertEqual([state for _, state, _ in self.way_of(self.nowhere)], [LOST])
 
-    def test_raise_wave_and_click_are_completed_when_they_are_made(self):
+    def test_raise_wave_and_click_complete_at_their_time(self):
         done = {kind: [m.time_s for m in self.moments if kind in m.done] for kind in (WAVE, CLICK, RAISE)}
         self.assertTrue(any(0.6 < t < 1.8 for t in done[RAISE]), done)
         self.assertTrue(done[WAVE] and all(2.2 < t < 4.5 for t in done[WAVE]), done)
         self.assertTrue(done[CLICK] and all(4.9 < t < 5.8 for t in done[CLICK]), done)
 
-    def test_the_hand_that_waved_is_followed_from_where_it_waved(self):
+    def test_waving_hand_is_tracked_from_its_gesture(self):
         way = self.way_of(self.waved)
         self.assertEqual(way[0][1] & ~TOUCHING, NEW)
         self.assertLess(distance(way[-1][2], arm_clip.hand_at(way[-1][0])), 0.6)

@@ -1,4 +1,4 @@
-"""What must work of a wheel where nothing else of ossa is."""
+"""What a wheel must do on a machine without any other part of ossa."""
 
 import pathlib
 

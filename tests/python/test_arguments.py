@@ -1,4 +1,4 @@
-"""Whatever argument cannot be is an ossa.InputError in one line, never a crash."""
+"""Every invalid argument is an ossa.InputError of one line, never a crash."""
 
 import inspect
 import random
@@ -42,27 +42,27 @@ NOT_IMAGES = [
 
 
 @pytest.mark.parametrize("depth_mm", NOT_IMAGES, ids=range(len(NOT_IMAGES)))
-def test_what_is_no_depth_image_is_refused(depth_mm, tracker, forest):
+def test_track_refuses_invalid_depth_images(depth_mm, tracker, forest):
     assert "depth_mm" in refused(tracker.track, depth_mm, CAMERA, 0.0)
     assert "depth_mm" in refused(forest.classify, depth_mm, CAMERA)
 
 
-def test_an_array_that_is_mapped_from_a_file_is_one(tracker, tmp_path):
+def test_track_accepts_a_memory_mapped_array(tracker, tmp_path):
     mapped = np.memmap(tmp_path / "depth", np.uint16, "w+", shape=DEPTH.shape)
     assert tracker.track(mapped, CAMERA, 0.0).bodies == []
 
 
-def test_the_message_says_how_to_put_another_order_right(tracker):
+def test_message_says_how_to_convert_another_memory_order(tracker):
     assert "ascontiguousarray" in refused(tracker.track, np.asfortranarray(DEPTH), CAMERA)
 
 
 @pytest.mark.parametrize("camera", [None, "kinect-v1", (575, 575, 320, 240), 5, ossa.Camera])
-def test_what_is_no_camera_is_refused(camera, tracker):
+def test_track_refuses_invalid_cameras(camera, tracker):
     assert "camera" in refused(tracker.track, DEPTH, camera, 0.0)
 
 
 @pytest.mark.parametrize("value", [0, -1, np.nan, np.inf, 1e9, None, "575", True, [575]])
-def test_a_focal_length_that_cannot_be_is_refused(value):
+def test_camera_refuses_invalid_focal_lengths(value):
     assert "fx" in refused(ossa.Camera, value, 575, 320, 240)
 
 
@@ -73,12 +73,12 @@ def test_a_focal_length_that_cannot_be_is_refused(value):
         {"width": 9999, "height": 480}, {"rotate": 45}, {"rotate": "left"}, {"rotate": True},
     ],  # fmt: skip
 )
-def test_sizes_and_rotations_that_cannot_be_are_refused(named):
+def test_camera_refuses_invalid_sizes_and_rotations(named):
     refused(ossa.Camera, 575, 575, 320, 240, **named)
 
 
 @pytest.mark.parametrize("time_s", [np.nan, np.inf, "0", [0.0], 1e300, True])
-def test_what_is_no_time_is_refused(time_s, tracker):
+def test_track_refuses_invalid_times(time_s, tracker):
     assert "time_s" in refused(tracker.track, DEPTH, CAMERA, time_s)
 
 
@@ -104,21 +104,21 @@ def test_what_is_no_time_is_refused(time_s, tracker):
     ],  # fmt: skip
     ids=str,
 )
-def test_a_tracker_that_cannot_be_is_refused(named):
+def test_tracker_refuses_invalid_options(named):
     refused(ossa.Tracker, **named)
 
 
 @pytest.mark.parametrize("ids", ["1", 1.5, [1.5], [None], [-1], [2**40], {1: 2}, object()])
-def test_users_that_cannot_be_are_refused(ids, tracker):
+def test_choose_users_refuses_invalid_ids(ids, tracker):
     assert "ids" in refused(tracker.choose_users, ids)
 
 
-def test_one_user_may_be_an_array_of_no_axes(tracker):
+def test_choose_users_accepts_a_zero_dimensional_array(tracker):
     tracker.choose_users(np.array(1))
     tracker.choose_users()
 
 
-def test_settings_that_cannot_be_are_refused(tracker):
+def test_tracker_refuses_invalid_settings_while_it_runs(tracker):
     for name, value in {"mode": "lying", "smoothing": 7}.items():
         refused(setattr, tracker, name, value)
 
@@ -134,7 +134,7 @@ def test_settings_that_cannot_be_are_refused(tracker):
     ],  # fmt: skip
     ids=str,
 )
-def test_a_source_that_cannot_be_is_refused(named, clip):
+def test_open_refuses_invalid_options(named, clip):
     refused(lambda **n: next(ossa.open(**n)), **{"source": clip, **named})
 
 
@@ -150,18 +150,18 @@ def test_a_source_that_cannot_be_is_refused(named, clip):
     ],  # fmt: skip
     ids=str,
 )
-def test_a_sequence_that_cannot_be_is_refused(named):
+def test_sequence_refuses_invalid_arrays(named):
     refused(ossa.Sequence, **{"times": [0.0], "joints": np.zeros((1, 20, 3)), **named})
 
 
-def test_a_sequence_that_was_damaged_later_is_refused(tmp_path):
+def test_write_refuses_a_sequence_that_was_damaged_after_construction(tmp_path):
     sequence = ossa.Sequence([0.0, 1.0], np.zeros((2, 20, 3)))
     sequence.joints = np.zeros((1, 20, 3))
     refused(ossa.reconstruct, sequence)
     refused(ossa.write_skeletons, sequence, tmp_path / "a.jsonl")
 
 
-def test_what_no_file_could_say_is_refused_before_it_is_written(tmp_path):
+def test_write_refuses_values_that_no_file_can_store(tmp_path):
     """Without this a file was written that ossa itself refuses to read."""
     rows = {"times": [0.0, 1.0], "joints": np.zeros((2, 20, 3))}
     part = np.zeros((2, 20, 4))
@@ -202,12 +202,12 @@ def test_what_no_file_could_say_is_refused_before_it_is_written(tmp_path):
         (CAMERA.project, ["here"], {}),
     ],
 )  # fmt: skip
-def test_other_calls_refuse_what_cannot_be(call, arguments, named):
+def test_other_calls_refuse_invalid_arguments(call, arguments, named):
     refused(call, *arguments, **named)
 
 
 def odd_values(random_):
-    """One value of any kind that somebody might pass."""
+    """One value of a random type that a caller might pass."""
     shapes = [(), (0,), (3,), (20,), (2, 2), (20, 3), (1, 20, 3), (48, 64), (3, 48, 64)]
     dtypes = ["u1", "u2", "i2", ">u2", "f4", "f8", "?", "O", "U3", "M8[s]", "c16"]
     return random_.choice(

@@ -1,4 +1,4 @@
-"""The examples for cameras through their makers' wheels, over what plays a camera without one."""
+"""The camera examples with the wheels of their makers, over a software device or a recording."""
 
 import importlib
 import itertools
@@ -42,7 +42,7 @@ def run(name, *arguments):
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_an_example_is_short_and_compiles(path):
+def test_examples_are_short_and_compile(path):
     text = path.read_text()
     assert text.count("\n") < 40
     compile(text, str(path), "exec")
@@ -84,7 +84,7 @@ def record_realsense(rs, images, path):
     return [queue.poll_for_frame() for _ in images]
 
 
-def test_realsense_reads_a_bag_that_a_software_device_recorded(images, tmp_path):
+def test_realsense_example_reads_a_bag_of_a_software_device(images, tmp_path):
     realsense = example("realsense", "pyrealsense2")
     rs = realsense.rs
     played = record_realsense(rs, images, tmp_path / "made.bag")
@@ -102,13 +102,13 @@ def test_realsense_reads_a_bag_that_a_software_device_recorded(images, tmp_path)
     assert len(ossa.Tracker().track(*read[0]).bodies) == 1
 
 
-def test_realsense_runs_as_a_program(images, tmp_path):
+def test_realsense_example_runs_as_a_program(images, tmp_path):
     realsense = example("realsense", "pyrealsense2")
     record_realsense(realsense.rs, images, tmp_path / "made.bag")
     assert run("realsense", tmp_path / "made.bag").count("\n") >= 12
 
 
-def test_what_a_realsense_recorded_is_a_source_too(images, tmp_path):
+def test_open_reads_a_bag_of_a_realsense(images, tmp_path):
     realsense = example("realsense", "pyrealsense2")
     record_realsense(realsense.rs, images, tmp_path / "made.bag")
     try:
@@ -120,19 +120,19 @@ def test_what_a_realsense_recorded_is_a_source_too(images, tmp_path):
     assert any(np.array_equal(read.depth_mm, image.depth_mm) for image in images)
 
 
-def test_azure_kinect_reads_a_recording(shared):
+def test_azure_kinect_example_reads_a_recording(shared):
     recording = shared / "real/recordings/azure_kinect.mkv"
     if not recording.is_file():
         pytest.skip(f"{recording} is not there")
     run("azure_kinect", recording)  # nobody is in it
 
 
-def test_azure_kinect_imports_pyk4a():
+def test_azure_kinect_example_imports_pyk4a():
     pytest.importorskip("pyk4a")
     assert example("azure_kinect").images
 
 
-def test_orbbec_reads_a_frame_of_the_sdk(images):
+def test_orbbec_example_reads_a_frame_of_the_sdk(images):
     orbbec = example("orbbec", "pyorbbecsdk")
     ob = orbbec.ob
     image = images[0]
@@ -149,11 +149,11 @@ def test_orbbec_reads_a_frame_of_the_sdk(images):
     assert np.array_equal(depth_mm, image.depth_mm) and camera.fx == pytest.approx(287.5)
 
 
-def test_kinect_v1_imports_freenect():
+def test_kinect_v1_example_imports_freenect():
     assert example("kinect_v1", "freenect").images
 
 
-def test_openni2_reads_a_recording(shared):
+def test_openni2_example_reads_a_recording(shared):
     recording = shared / "real/recordings/kinect_v1_openni1.oni"
     if not recording.is_file():
         pytest.skip(f"{recording} is not there")

@@ -11,7 +11,7 @@ def forest():
     return ossa.Forest()
 
 
-def test_classifies_a_person_as_the_tracker_does(forest, images, frames):
+def test_classify_agrees_with_the_tracker(forest, images, frames):
     depth_mm, camera, _ = images[-1]
     mask = frames[-1].users > 0
     parts, probabilities = forest.classify(depth_mm, camera, mask)
@@ -23,7 +23,7 @@ def test_classifies_a_person_as_the_tracker_does(forest, images, frames):
     assert (parts == frames[-1].parts)[mask].mean() > 0.8
 
 
-def test_proposes_every_target_best_first(forest, images, frames):
+def test_propose_returns_every_target_best_first(forest, images, frames):
     depth_mm, camera, _ = images[-1]
     body = frames[-1].bodies[0]
     proposals = forest.propose(depth_mm, camera, frames[-1].users == body.id)
@@ -32,22 +32,22 @@ def test_proposes_every_target_best_first(forest, images, frames):
     assert list(proposals["Head"].confidence) == sorted(proposals["Head"].confidence)[::-1]
 
 
-def test_an_image_without_readings_has_no_parts(forest):
+def test_classify_finds_no_parts_in_an_image_without_readings(forest):
     nothing = np.zeros((48, 64), np.uint16)
     parts, probabilities = forest.classify(nothing, ossa.Camera.preset("kinect-v1"))
     assert not parts.any() and not probabilities.any()
 
 
-def test_a_mask_of_another_size_is_refused(forest, images):
+def test_classify_refuses_a_mask_of_another_size(forest, images):
     with pytest.raises(ossa.InputError, match=r"mask: expected bool or uint8"):
         forest.classify(images[0].depth_mm, images[0].camera, np.ones((2, 2), bool))
 
 
-def test_its_card_says_what_it_was_trained_on(forest):
+def test_card_names_the_training_data(forest):
     assert forest.card
 
 
-def test_a_file_that_is_no_forest_is_named(tmp_path):
+def test_forest_names_a_file_of_another_format(tmp_path):
     (tmp_path / "no.ossa").write_text("no forest")
     with pytest.raises(ossa.InputError, match="no.ossa"):
         ossa.Forest(tmp_path / "no.ossa")

@@ -61,7 +61,7 @@ def track(clip, command, tmp_path_factory):
 @pytest.mark.parametrize("names, options", [
     ("vrm", ()), ("vrm", ("--fit", "off")), ("cmu", ("--bvh-names", "cmu")), ("mixamo", ("--bvh-names", "mixamo")),
 ])  # fmt: skip
-def test_the_skin_s_joints_are_where_ours_are(names, options, track, pygltflib):
+def test_skin_joints_are_at_the_skeleton_joints(names, options, track, pygltflib):
     path, frames = track(*options)
     scene = Scene(pygltflib, path)
     person = scene.person(frames[0]["bodies"][0]["id"])
@@ -74,7 +74,7 @@ def test_the_skin_s_joints_are_where_ours_are(names, options, track, pygltflib):
             assert np.linalg.norm(place - joints[joint]["p"]) < MOST_M, (bone, frame["frame"])
 
 
-def test_at_rest_it_stands_in_a_t_pose_facing_z_with_the_left_at_x(track, pygltflib):
+def test_rest_pose_is_a_t_pose_facing_z_with_the_left_at_x(track, pygltflib):
     scene = Scene(pygltflib, track()[0])
     world, person = scene.world(), scene.person(1)
     place = {bone: world[person[bone], :3, 3] for bone in BONES}
@@ -95,14 +95,14 @@ def test_at_rest_it_stands_in_a_t_pose_facing_z_with_the_left_at_x(track, pygltf
     assert abs(skin[:, 1].min()) < 1e-5 and 1.2 < skin[:, 1].max() < 2.1  # metres, feet on the ground
 
 
-def test_keys_are_at_the_frames_own_times(track, pygltflib):
+def test_keyframes_have_the_times_of_the_frames(track, pygltflib):
     path, frames = track()
     scene = Scene(pygltflib, path)
     times = [frame["time_s"] - frames[0]["time_s"] for frame in frames]
     assert all(np.allclose(track_times, times, atol=1e-6) for _, _, track_times, _, _ in scene.tracks)
 
 
-def test_the_fitted_skin_lies_on_the_depth_image(track, images, models, pygltflib):
+def test_fitted_skin_lies_on_the_depth_image(track, images, models, pygltflib):
     path, frames = track("--fit", "on")
     scene = Scene(pygltflib, path)
     tracker = ossa.Tracker(models=models, fit=True)
@@ -127,7 +127,7 @@ def distances(points, vertices):
     return np.linalg.norm(points[:, None] - vertices[None], axis=2).min(axis=1)
 
 
-def test_a_fitted_body_has_its_mesh_in_python(images, models):
+def test_fitted_body_has_a_mesh(images, models):
     tracker = ossa.Tracker(models=models, fit=True)
     for image in images[:6]:
         frame = tracker.track(*image)
@@ -144,14 +144,14 @@ def test_a_fitted_body_has_its_mesh_in_python(images, models):
     assert (np.linalg.eigvalsh(body.fit.covariance_m2) > 0).all()
 
 
-def test_a_fit_keeps_its_mesh_when_it_is_pickled(images, models):
+def test_pickled_fit_keeps_its_mesh(images, models):
     fit = ossa.Tracker(models=models).track(*images[0]).bodies[0].fit
     again = pickle.loads(pickle.dumps(fit))
     assert (again.mesh.vertices == fit.mesh.vertices).all() and again.mesh.faces.any()
     assert fit.mesh is fit.mesh
 
 
-def test_without_a_fit_there_is_no_mesh(images, models):
+def test_body_without_a_fit_has_no_mesh(images, models):
     body = ossa.Tracker(models=models, fit=False).track(*images[0]).bodies[0]
     assert body.mesh is None and body.fit is None
 
@@ -160,7 +160,7 @@ SHIPPED = pathlib.Path(__file__).parents[2] / "tools/tracker/shipped"
 OWN = {"surface": SHIPPED / "body.ossasurface", "mesh": SHIPPED / "body.ossamesh"}
 
 
-def test_a_skin_of_ones_own_is_worn_by_bodies_and_files(images, tmp_path):
+def test_custom_skin_is_used_for_bodies_and_files(images, tmp_path):
     tracker = ossa.Tracker(**OWN)
     body = [tracker.track(*image) for image in images[:3]][-1].bodies[0]
     assert len(body.mesh.vertices) > 1000
@@ -184,19 +184,19 @@ def test_a_skin_of_ones_own_is_worn_by_bodies_and_files(images, tmp_path):
     ("x.glb", {"shapes": {1: [np.nan] * 10}}, "finite"),
     ("x.glb", {"shapes": [1]}, "dict"),
 ])  # fmt: skip
-def test_a_skin_that_cannot_be_worn_is_refused(name, how, says, frames, tmp_path):
+def test_unusable_skin_is_refused(name, how, says, frames, tmp_path):
     sequence = ossa.Sequence.from_frames(frames[:2])
     with pytest.raises(ossa.InputError, match=says):
         ossa.write_skeletons(sequence, tmp_path / name, **how)
     assert not list(tmp_path.iterdir())
 
 
-def test_a_surface_of_ones_own_wants_its_skin():
+def test_custom_surface_needs_its_skin():
     with pytest.raises(ossa.InputError, match="surface: expected its skin with it"):
         ossa.Tracker(surface=OWN["surface"])
 
 
-def test_several_people_are_there_when_they_are(frames, tmp_path, pygltflib):
+def test_several_people_are_visible_in_their_own_frames_only(frames, tmp_path, pygltflib):
     first = ossa.Sequence.from_frames(frames[:9])
     rows = len(first.times)
     joints = np.concatenate([first.joints, first.joints[3:6] + [0.8, 0, 0]])
@@ -219,7 +219,7 @@ def test_several_people_are_there_when_they_are(frames, tmp_path, pygltflib):
             assert np.linalg.norm(head - first.joints[row, ossa.Joint.Head]) < 0.01
 
 
-def test_skeleton_files_become_one(command, clip, tmp_path, pygltflib):
+def test_reconstruct_writes_a_glb_from_a_skeleton_file(command, clip, tmp_path, pygltflib):
     command("reconstruct", clip / "truth.jsonl", "--method", "none", "--out", tmp_path / "x.glb", "--quiet")
     truth = ossa.read_skeletons(clip / "truth.jsonl")
     scene = Scene(pygltflib, tmp_path / "x.glb")
@@ -237,7 +237,7 @@ def test_trimesh_reads_a_closed_surface_that_faces_outwards(track):
     assert (body.face_normals * body.vertex_normals[body.faces[:, 0]]).sum(axis=1).mean() > 0.8
 
 
-def test_khronos_validator_has_nothing_to_say(track):
+def test_khronos_validator_reports_nothing(track):
     folder = os.path.join(sys.prefix, "npm")
     if not shutil.which("node") or not os.path.isdir(os.path.join(folder, "node_modules/gltf-validator")):
         pytest.skip("npm's gltf-validator cannot be had")
@@ -276,14 +276,14 @@ def test_blender_imports_the_motion(track):
     (("--bvh-names", "sdk"), "expected vrm, cmu or mixamo"),
     (("--mesh", "absent.ossamesh"), "absent.ossamesh"),
 ])  # fmt: skip
-def test_what_cannot_be_is_refused(options, expected, command, clip, tmp_path):
+def test_impossible_options_are_refused(options, expected, command, clip, tmp_path):
     with pytest.raises(subprocess.CalledProcessError) as refused:
         command("track", clip, "--out", tmp_path / "x.glb", "--quiet", *options)
     assert expected in refused.value.stderr
     assert not list(tmp_path.iterdir())
 
 
-def test_wrong_names_are_refused_in_python(frames, tmp_path):
+def test_unknown_names_are_refused_in_python(frames, tmp_path):
     sequence = ossa.Sequence.from_frames(frames[:3])
     for name, names in (("x.glb", "sdk"), ("x.jsonl", "vrm"), ("x.bvh", "unity")):
         with pytest.raises(ossa.InputError, match="names"):

@@ -1,4 +1,4 @@
-"""Ctrl-C, and whatever else a signal's handler raises, ends long calls as itself."""
+"""Ctrl-C, and any other exception that a signal handler raises, ends long calls unchanged."""
 
 import contextlib
 import signal
@@ -16,12 +16,12 @@ EMPTY_FRAMES = 3000  # far more than are looked through until the signal comes
 
 
 class Rung(Exception):
-    """What the handler raises: no error of ossa's."""
+    """The exception of the handler, which is none of ossa's."""
 
 
 @contextlib.contextmanager
 def ringing(after_s):
-    """Raises Rung in what is run within, that many seconds from now."""
+    """Raises Rung inside the with statement after that many seconds."""
 
     def ring(*_):
         raise Rung
@@ -54,19 +54,19 @@ def empty_room(tmp_path):
     return tmp_path / "room"
 
 
-def test_a_wait_for_a_device_is_interrupted():
+def test_interrupt_ends_the_wait_for_a_device():
     with pytest.raises(Rung), ringing(0.3):
         ossa.open("openni:", wait_s=60)
 
 
-def test_a_look_for_which_way_is_up_is_interrupted(empty_room, models):
+def test_interrupt_ends_the_search_for_the_upright_rotation(empty_room, models):
     tracker = ossa.Tracker(models=models)
     source = ossa.open(empty_room, depth_scale=1000, fps=200)
     with pytest.raises(Rung), ringing(0.3):
         next(tracker.run(source))
 
 
-def test_nothing_half_learned_is_kept(clip, tmp_path):
+def test_interrupted_learning_writes_no_file(clip, tmp_path):
     truth = ossa.read_skeletons(clip / "truth.jsonl")
     out = tmp_path / "errors.ossagp"
     for after_s in (0.02, 0.1, 0.3):
@@ -95,7 +95,7 @@ time.sleep({after_s})
 
 
 @pytest.mark.parametrize("live, after_s", [(False, 0.1), (False, 0.13), (True, 0.3)])
-def test_a_program_ends_while_a_daemon_thread_tracks(live, after_s, clip):
+def test_program_exits_while_a_daemon_thread_tracks(live, after_s, clip):
     code = TRACKS_ON.format(clip=str(clip), live=live, after_s=after_s)
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
     assert ended.returncode == 0, ended.stderr

@@ -26,21 +26,21 @@ def mypy(folder, *arguments):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_types_hold_under_mypy_strict():
+def test_types_pass_mypy_strict():
     mypy(PACKAGE, "mypy", "--config-file", "pyproject.toml", "ossa")
 
 
-def test_the_stub_is_that_of_the_extension(tmp_path):
-    # Classes of an extension by pybind11 have its metaclass, of which a stub has no word.
+def test_stub_matches_the_extension(tmp_path):
+    # Classes of a pybind11 extension have its metaclass, which a stub does not declare.
     (tmp_path / "allowed").write_text(r"ossa\._native\.(Forest|Models|Skin|Source|Tracker|Skin\.__init__)")
     mypy(tmp_path, "mypy.stubtest", "ossa._native", "--allowlist", "allowed")
 
 
-def test_the_version_is_that_of_the_command(command):
+def test_version_equals_that_of_the_command(command):
     assert ossa.__version__ in command("--version")
 
 
-def test_the_reference_page_names_all_that_is_public():
+def test_reference_page_names_every_public_name():
     page = (PACKAGE.parents[1] / "docs/python.md").read_text()
     for name in ossa.__all__:
         assert re.search(rf"\b{name}\b", page), name
@@ -51,7 +51,7 @@ ARRAYS = {"depth_mm", "joints", "points_m", "users"}
 
 
 @pytest.mark.parametrize("name", PUBLIC)
-def test_help_explains_what_is_public(name):
+def test_help_describes_every_public_name(name):
     text = pydoc.render_doc(getattr(ossa, name), renderer=pydoc.plaintext)
     assert inspect.getdoc(getattr(ossa, name)), name
     assert "METHOD_OPTIONS" not in text
@@ -74,7 +74,7 @@ def functions():
 
 
 @pytest.mark.parametrize("name, function, text", functions())
-def test_help_names_every_argument_with_its_meaning(name, function, text):
+def test_help_describes_every_argument(name, function, text):
     for argument in inspect.signature(function).parameters:
         if argument.startswith("_") or argument == "self":
             continue
@@ -83,7 +83,7 @@ def test_help_names_every_argument_with_its_meaning(name, function, text):
 
 
 @pytest.mark.parametrize("name, function, text", functions())
-def test_arrays_are_told_with_their_shape(name, function, text):
+def test_help_states_the_shape_of_arrays(name, function, text):
     for argument in set(inspect.signature(function).parameters) & ARRAYS:
         line = re.search(rf"^ *(?:\w+, )*{argument}(?:, \w+)*( : .*)?$", text, re.MULTILINE)
         assert line, (name, argument)

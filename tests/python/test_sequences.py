@@ -1,4 +1,4 @@
-"""ossa.Sequence, its files, methods over it, and judging it."""
+"""ossa.Sequence: its files, methods on it and its evaluation."""
 
 import json
 import subprocess
@@ -28,13 +28,13 @@ def two_people():
     return ossa.Sequence([0, 0, 0.1], joints, ids=[1, 2, 1])
 
 
-def test_reading_gives_a_row_for_each_body_of_each_frame(truth):
+def test_read_returns_a_row_per_body_and_frame(truth):
     assert len(truth) == 24 and truth.joints.shape == (24, 20, 3) and truth.people == [1]
     assert truth.times[1] == pytest.approx(1 / 30, abs=1e-3)
 
 
 @pytest.mark.parametrize("extension", ["jsonl", "csv"])
-def test_what_is_written_is_read_again(extension, tmp_path):
+def test_written_files_are_read_back(extension, tmp_path):
     made = two_people()
     ossa.write_skeletons(made, tmp_path / f"a.{extension}")
     read = ossa.read_skeletons(tmp_path / f"a.{extension}")
@@ -42,7 +42,7 @@ def test_what_is_written_is_read_again(extension, tmp_path):
     assert list(read.ids) == [1, 2, 1] and list(read.frames) == [0, 0, 1]
 
 
-def test_files_keep_all_that_the_tracker_says(seen, tmp_path):
+def test_files_keep_every_field_of_the_tracker(seen, tmp_path):
     ossa.write_skeletons(seen, tmp_path / "a.jsonl")
     read = ossa.read_skeletons(tmp_path / "a.jsonl")
     assert (read.states == seen.states).all()
@@ -51,11 +51,11 @@ def test_files_keep_all_that_the_tracker_says(seen, tmp_path):
         assert np.allclose(getattr(read, name), getattr(seen, name), atol=1e-5), name
 
 
-def test_rows_are_gone_through_one_by_one():
+def test_rows_can_be_iterated():
     assert [list(row.ids) for row in two_people()] == [[1], [2], [1]]
 
 
-def test_a_person_and_a_stretch_are_cut_out():
+def test_person_and_time_span_are_selected():
     made = two_people()
     assert list(made.person(1).times) == [0, 0.1]
     assert len(made[1:]) == 2 and made[1:].people == [1, 2]
@@ -70,7 +70,7 @@ def test_frames_without_bodies_are_kept(tmp_path):
 
 
 @pytest.mark.parametrize("method", ["none", "best", "kalman", "shum-2013"])
-def test_reconstructs_as_the_command(method, seen, command, tmp_path):
+def test_reconstruct_equals_the_command(method, seen, command, tmp_path):
     ossa.write_skeletons(seen, tmp_path / "seen.jsonl")
     command("reconstruct", tmp_path / "seen.jsonl", "--method", method, "--out",
             tmp_path / "command.jsonl", "--quiet")  # fmt: skip
@@ -79,21 +79,21 @@ def test_reconstructs_as_the_command(method, seen, command, tmp_path):
     assert (tmp_path / "python.jsonl").read_bytes() == (tmp_path / "command.jsonl").read_bytes()
 
 
-def test_absent_joints_are_made_up_and_say_so(truth):
+def test_absent_joints_are_reconstructed_and_marked_inferred(truth):
     truth.joints[:, ossa.Joint.HandLeft] = np.nan
     made = ossa.reconstruct(truth)
     assert np.isfinite(made.joints).all()
     assert (made.states[:, ossa.Joint.HandLeft] == "inferred").all()
 
 
-def test_butterworth_and_bones_of_the_recording_are_had(truth):
+def test_reconstruct_offers_butterworth_and_bones_of_the_recording(truth):
     assert len(ossa.reconstruct(truth, "butterworth", cutoff_hz=3)) == 24
     made = ossa.reconstruct(truth, bones="recording")
     arm = np.linalg.norm(made.joints[:, 5] - made.joints[:, 4], axis=1)
     assert np.ptp(arm) < 1e-6
 
 
-def test_a_whole_recording_is_smoothed_where_nothing_else_is_asked(seen):
+def test_reconstruct_smooths_the_whole_recording_by_default(seen):
     rough, usual, whole = (ossa.reconstruct(seen, lag=lag) for lag in (0, None, "whole"))
     assert np.array_equal(usual.joints, whole.joints)
     jumps = [np.abs(np.diff(s.joints, 2, axis=0)).mean() for s in (rough, whole)]
@@ -103,7 +103,7 @@ def test_a_whole_recording_is_smoothed_where_nothing_else_is_asked(seen):
             ossa.reconstruct(seen, lag=wrong)
 
 
-def test_compares_with_the_fields_of_the_command(clip, seen, command, tmp_path):
+def test_compare_returns_the_fields_of_the_command(clip, seen, command, tmp_path):
     ossa.write_skeletons(seen, tmp_path / "seen.jsonl")
     by_command = json.loads(
         command("compare", clip / "truth.jsonl", tmp_path / "seen.jsonl", "--json", "-")
@@ -116,7 +116,7 @@ def test_compares_with_the_fields_of_the_command(clip, seen, command, tmp_path):
     assert ours["mean_joint_error_cm"] == pytest.approx(theirs["mean_joint_error_cm"])
 
 
-def test_evaluates_with_the_fields_of_the_command(clip, command):
+def test_evaluate_returns_the_fields_of_the_command(clip, command):
     model = clip.parents[3] / "tools/tracker/shipped/body.ossa"
     by_command = json.loads(command("evaluate", model, clip, "--every", 8, "--quiet"))
     by_python = ossa.evaluate(model, clip, every=8)
@@ -124,19 +124,19 @@ def test_evaluates_with_the_fields_of_the_command(clip, command):
     assert by_python["pixel_accuracy"] == by_command["pixel_accuracy"]
 
 
-def test_learns_a_file_that_reconstruct_reads(truth, seen, tmp_path):
+def test_learn_writes_a_file_that_reconstruct_reads(truth, seen, tmp_path):
     learned = ossa.learn(seen, truth, tmp_path / "own.ossagp", correction_only=True)
     assert learned["pairs"] == 24
     made = ossa.reconstruct(seen, learned=tmp_path / "own.ossagp")
     assert np.abs(made.joints - ossa.reconstruct(seen, learned="none").joints).max() > 1e-6
 
 
-def test_methods_that_learn_need_their_file(seen):
+def test_learned_methods_need_their_file(seen):
     with pytest.raises(ossa.InputError, match="learned: expected the .ossagp file"):
         ossa.reconstruct(seen, "liu-2016")
 
 
-def test_tables_are_had_where_pandas_is(seen, frames, truth):
+def test_tables_are_data_frames_of_pandas(seen, frames, truth):
     pytest.importorskip("pandas")
     table = seen.to_pandas()
     assert len(table) == 24 * 20 and set(table["joint"]) == set(ossa.JOINTS)
@@ -144,7 +144,7 @@ def test_tables_are_had_where_pandas_is(seen, frames, truth):
     assert ossa.compare(truth, seen).to_pandas()["mean_joint_error_cm"][0] > 0
 
 
-def test_without_pandas_it_is_named(tmp_path):
+def test_missing_pandas_is_named(tmp_path):
     (tmp_path / "pandas.py").write_text("raise ImportError")
     code = "import ossa, numpy; ossa.Sequence([0], numpy.zeros((1, 20, 3))).to_pandas()"
     environment = {"PYTHONPATH": f"{tmp_path}:{':'.join(sys.path)}"}
@@ -152,6 +152,6 @@ def test_without_pandas_it_is_named(tmp_path):
     assert b"needs the package pandas" in done.stderr
 
 
-def test_importing_imports_numpy_alone():
+def test_import_loads_numpy_only():
     code = "import sys, ossa; print([m for m in ('pandas', 'cv2', 'rerun') if m in sys.modules])"
     assert subprocess.check_output([sys.executable, "-c", code]).strip() == b"[]"

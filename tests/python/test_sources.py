@@ -8,7 +8,7 @@ import pytest
 import ossa
 
 
-def test_a_data_set_gives_its_images_cameras_and_times(clip):
+def test_data_set_yields_images_cameras_and_times(clip):
     with ossa.open(clip) as source:
         assert source.frame_count == 24 and not source.is_live
         images = list(source)
@@ -29,14 +29,14 @@ def test_images_outlive_their_source(clip):
     assert (depth_mm == kept).all()
 
 
-def test_a_closed_source_says_so(clip):
+def test_closed_source_raises(clip):
     source = ossa.open(clip)
     source.close()
     with pytest.raises(ossa.InputError, match="closed"):
         next(source)
 
 
-def test_another_thread_ends_the_wait_for_an_image(clip):
+def test_close_in_another_thread_ends_the_wait_for_an_image(clip):
     silent = f"openni:ossa://{clip}?stall_after=1"
     with ossa.open(silent, patience_s=600) as source:
         next(source)
@@ -47,7 +47,7 @@ def test_another_thread_ends_the_wait_for_an_image(clip):
         another.join()
 
 
-def test_what_is_assumed_is_noted(clip, tmp_path):
+def test_assumptions_are_in_the_notes(clip, tmp_path):
     (tmp_path / "000000.png").write_bytes((clip / "depth/000000.png").read_bytes())
     source = ossa.open(tmp_path)
     next(source)
@@ -55,18 +55,18 @@ def test_what_is_assumed_is_noted(clip, tmp_path):
 
 
 @pytest.mark.parametrize("camera", ["xtion", "575,575,160,120", ossa.Camera(575, 575, 160, 120)])
-def test_a_camera_goes_before_the_source_s_own(camera, clip):
+def test_given_camera_overrides_that_of_the_source(camera, clip):
     assert ossa.open(clip, camera=camera).camera.fx != ossa.open(clip).camera.fx
 
 
-def test_a_camera_on_its_side_stays_so_in_what_it_took(clip):
+def test_rotation_of_a_source_is_kept_in_its_camera(clip):
     on_its_side = ossa.Camera(290, 290, 160, 120, rotate=90)
     assert next(ossa.open(clip, camera=on_its_side)).camera.rotate == 90
     assert next(ossa.open(clip, camera=on_its_side, rotate=180)).camera.rotate == 180
     assert next(ossa.open(clip, camera="kinect-v1")).camera.rotate == "auto"
 
 
-def test_depth_scale_and_fps_are_those_asked_for(clip):
+def test_depth_scale_and_fps_are_applied(clip):
     plain = next(ossa.open(clip / "depth", camera="kinect-v1")).depth_mm
     scaled = next(ossa.open(clip / "depth", camera="kinect-v1", depth_scale=2000)).depth_mm
     assert np.abs(scaled.astype(int) - plain // 2).max() <= 1
@@ -74,7 +74,7 @@ def test_depth_scale_and_fps_are_those_asked_for(clip):
     assert images[1].time_s - images[0].time_s == pytest.approx(0.1)
 
 
-def test_mirrored_images_come_as_the_sensor_looks(clip):
+def test_mirrored_images_are_unmirrored(clip):
     told = {"camera": "300,300,150,120"}
     mirrored = next(ossa.open(clip / "depth", **told))
     seen = next(ossa.open(clip / "depth", **told, mirrored=True))
@@ -83,7 +83,7 @@ def test_mirrored_images_come_as_the_sensor_looks(clip):
     assert seen.camera.cx == 320 - 1 - 150
 
 
-def test_a_missing_source_is_named_in_one_line():
+def test_missing_source_is_reported_in_one_line():
     with pytest.raises(ossa.InputError, match="nowhere.oni") as caught:
         ossa.open("nowhere.oni")
     assert "\n" not in str(caught.value)
@@ -97,7 +97,7 @@ def test_presets_are_cameras(name):
     assert ossa.Camera.preset(name, 320, 240).width == 320
 
 
-def test_a_preset_fits_itself_to_the_sensor_s_other_modes():
+def test_preset_adapts_to_other_modes_of_the_sensor():
     # A RealSense crops: its focal length in 640x480 is not that of 848x480 scaled by width.
     assert ossa.Camera.preset("d435").for_size(640, 480) == ossa.Camera.preset("d435", 640, 480)
 
@@ -120,14 +120,14 @@ def test_recordings_of_other_programs_are_read(shared):
     assert image.depth_mm.any() and image.camera.fx > 200
 
 
-def test_a_camera_that_is_found_is_that_of_images_to_come(clip):
+def test_camera_found_by_the_search_applies_to_later_images(clip):
     source = ossa.open(clip)
     source._take_camera((300.0, 301.0, 160.0, 120.0, 320, 240), "found")
     assert source.camera.fx == 300.0 and source.notes == [f"{clip}: found"]
     assert next(source).camera.fy == 301.0
 
 
-def test_people_tell_the_camera_of_images_that_do_not(shared, models):
+def test_camera_search_identifies_the_camera_by_the_people(shared, models):
     images = shared / "real/itop_depth/side"
     if not images.is_dir():
         pytest.skip(f"{images} is not there")

@@ -32,15 +32,15 @@ def skeletons_of(tracker, images):
 
 
 @pytest.mark.parametrize("method", ["best", "holt", "shum-2013"])
-def test_gives_the_bytes_of_the_command(method, clip, command, tmp_path):
+def test_track_writes_the_same_bytes_as_the_command(method, clip, command, tmp_path):
     command("track", clip, "--method", method, "--out", tmp_path / "command.jsonl", "--quiet")
-    # As a recording's by the command: best with the most lag, others without.
+    # The command's defaults for a recording: best with the largest lag, others without.
     tracked = ossa.Tracker(method, lag=2 if method == "best" else 0).run(clip)
     ossa.write_skeletons(ossa.Sequence.from_frames(tracked), tmp_path / "python.jsonl")
     assert (tmp_path / "python.jsonl").read_bytes() == (tmp_path / "command.jsonl").read_bytes()
 
 
-def test_models_warn_of_a_refinement_of_another_forest(command, tmp_path, caplog):
+def test_tracker_warns_of_a_refinement_of_another_forest(command, tmp_path, caplog):
     # The smallest training there is, at the shipped forest's joints.
     command("render", "--mocap", "authored", "--out", tmp_path / "people", "--frames", "150",
             "--size", "160x120", "--view", "front", "--format", "packed", "--quiet")  # fmt: skip
@@ -54,7 +54,7 @@ def test_models_warn_of_a_refinement_of_another_forest(command, tmp_path, caplog
     assert "a.ossarefine: learned at the joints of another forest" in warning.message
 
 
-def test_a_body_has_every_field_in_its_shape_and_type(frames):
+def test_body_fields_have_their_shape_and_type(frames):
     body = frames[-1].bodies[0]
     for name, shape in {
         "position": (3,), "joints": (20, 3), "confidence": (20,), "reliability": (20,),
@@ -70,7 +70,7 @@ def test_a_body_has_every_field_in_its_shape_and_type(frames):
     assert len(body.proposals) == 20
 
 
-def test_a_frame_has_every_field_in_its_shape_and_type(frames):
+def test_frame_fields_have_their_shape_and_type(frames):
     frame = frames[-1]
     assert frame.users.shape == frame.parts.shape == (240, 320)
     assert frame.users.dtype == frame.parts.dtype == np.uint8
@@ -83,7 +83,7 @@ def test_a_frame_has_every_field_in_its_shape_and_type(frames):
     assert not frame.probabilities[frame.users == 0].any()
 
 
-def test_the_best_proposal_of_a_tracked_joint_lies_near_the_raw_joint(frames):
+def test_best_proposal_of_a_tracked_joint_is_near_the_raw_joint(frames):
     body = frames[-1].bodies[0]
     head = body.proposals[ossa.Joint.Head]
     assert len(head) == len(head.confidence) == len(head.seen) >= 1
@@ -91,21 +91,21 @@ def test_the_best_proposal_of_a_tracked_joint_lies_near_the_raw_joint(frames):
     assert np.abs(head.positions - body.raw[ossa.Joint.Head]).max(axis=1).min() < 1e-9
 
 
-def test_what_was_not_asked_for_is_not_made(images, models):
+def test_unrequested_results_are_absent(images, models):
     frame = ossa.Tracker(models=models, parts=False).track(*images[0])
     assert frame.parts is None and frame.probabilities is None
     assert all(body.proposals is None for body in frame.bodies)
 
 
-def test_joints_are_had_by_name_and_by_index(frames):
+def test_joints_are_accessed_by_name_and_index(frames):
     body = frames[-1].bodies[0]
     assert (body["Head"] == body.joints[ossa.JOINTS.index("Head")]).all()
     assert (body[ossa.Joint.Head] == body["Head"]).all()
     assert [j.name for j in ossa.Joint] == list(ossa.JOINTS)
 
 
-def test_bodies_are_found_in_lists_and_taken_apart(frames):
-    """Arrays of the same numbers have no one truth of being equal: it is asked for the object."""
+def test_bodies_can_be_compared_and_unpacked(frames):
+    """Bodies compare by identity: comparing arrays gives an array, not one truth value."""
     body, other = frames[-1].bodies[0], frames[-2].bodies[0]
     assert body in frames[-1].bodies and body not in frames[-2].bodies and body != other
     assert len({body, other, frames[0], frames[1]}) == 4
@@ -116,7 +116,7 @@ def test_bodies_are_found_in_lists_and_taken_apart(frames):
     assert dataclasses.asdict(body)["id"] == body.id
 
 
-def test_what_was_tracked_before_a_source_fails_comes_first(clip, models):
+def test_run_yields_frames_tracked_before_the_source_fails(clip, models):
     tracker, source = ossa.Tracker(models=models, lag=2), ossa.open(clip)
     numbers = []
     with pytest.raises(ossa.InputError, match="closed"):
@@ -126,7 +126,7 @@ def test_what_was_tracked_before_a_source_fails_comes_first(clip, models):
     assert numbers == [0, 1, 2]
 
 
-def test_a_run_that_is_given_up_leaves_nothing_to_the_next(clip, models):
+def test_abandoned_run_leaves_no_frames_to_the_next(clip, models):
     tracker = ossa.Tracker(models=models, lag=2)
     for _ in tracker.run(clip):
         break
@@ -144,7 +144,7 @@ def test_results_outlive_the_tracker_and_the_next_frame(images, models):
     assert (joints == kept[0]).all() and (users == kept[1]).all()
 
 
-def test_trackers_in_threads_give_what_one_alone_gives(images, models):
+def test_trackers_in_threads_give_the_same_results(images, models):
     alone = skeletons_of(ossa.Tracker(models=models), images)
     made = {}
 
@@ -160,7 +160,7 @@ def test_trackers_in_threads_give_what_one_alone_gives(images, models):
         assert np.array_equal(made[number], alone)
 
 
-def test_one_tracker_in_two_threads_takes_turns(images, models):
+def test_one_tracker_in_two_threads_is_serialised(images, models):
     tracker = ossa.Tracker(models=models)
     failures = []
 
@@ -180,7 +180,7 @@ def test_one_tracker_in_two_threads_takes_turns(images, models):
     assert not failures
 
 
-def test_other_threads_run_while_it_tracks(images, models):
+def test_tracking_releases_the_gil(images, models):
     tracker = ossa.Tracker(models=models, parts=True)
     thread = threading.Thread(target=skeletons_of, args=(tracker, images))
     thread.start()
@@ -192,7 +192,7 @@ def test_other_threads_run_while_it_tracks(images, models):
     assert turns > 4 * len(images)
 
 
-def test_a_part_of_an_image_is_tracked_as_its_copy(images, models):
+def test_image_view_is_tracked_like_its_copy(images, models):
     depth_mm, camera, _ = images[0]
     part = depth_mm[20:220, 10:310]
     assert not part.flags.c_contiguous
@@ -203,7 +203,7 @@ def test_a_part_of_an_image_is_tracked_as_its_copy(images, models):
     assert np.array_equal(as_view.bodies[0].joints, as_copy.bodies[0].joints)
 
 
-def test_an_image_that_is_written_into_meanwhile_does_no_harm(images, models):
+def test_writing_into_an_image_while_tracking_does_not_crash(images, models):
     given, camera, _ = images[0]
     depth_mm = given.copy()
     tracked = threading.Event()
@@ -239,7 +239,7 @@ def test_users_not_chosen_have_a_position_only(images, models):
     assert tracker.track(*images[1]).bodies[0].tracked
 
 
-def test_seated_mode_can_be_set_while_it_runs(images, models):
+def test_seated_mode_changes_while_running(images, models):
     tracker = ossa.Tracker(models=models)
     standing = tracker.track(*images[0]).bodies[0]
     tracker.mode = "seated"
@@ -249,7 +249,7 @@ def test_seated_mode_can_be_set_while_it_runs(images, models):
     assert tracker.mode == "seated"
 
 
-def test_smoothing_can_be_set_while_it_runs(images, models):
+def test_smoothing_changes_while_running(images, models):
     rough, smooth = ossa.Tracker(models=models), ossa.Tracker(models=models)
     smooth.smoothing = ossa.Holt(smoothing=0.9, prediction=0.0, max_deviation_radius_m=1.0)
     differences = [
@@ -262,22 +262,22 @@ def test_smoothing_can_be_set_while_it_runs(images, models):
 
 
 @pytest.mark.parametrize("smoothing", [*ossa.SMOOTHINGS, ossa.Holt(), ossa.OneEuro()])
-def test_every_smoothing_is_taken(smoothing, images, models):
+def test_every_smoothing_is_accepted(smoothing, images, models):
     assert ossa.Tracker(models=models, smoothing=smoothing).track(*images[0]).bodies
 
 
 @pytest.mark.parametrize("method", ["none", "one-euro", "kalman", "shum-ho-2012", "plantard-2016"])
-def test_every_method_is_had_by_name(method, images):
+def test_every_method_is_accepted_by_name(method, images):
     assert ossa.Tracker(method).track(*images[0]).bodies[0].tracked
 
 
-def test_options_of_a_method_reach_it(images):
+def test_method_options_reach_the_method(images):
     few = skeletons_of(ossa.Tracker("shum-2013", neighbours=3, steps=2), images[:6])
     many = skeletons_of(ossa.Tracker("shum-2013"), images[:6])
     assert np.abs(np.array(few) - many).max() > 1e-4
 
 
-def test_an_option_that_the_method_does_not_read_is_refused():
+def test_option_that_the_method_does_not_read_is_refused():
     with pytest.raises(ossa.InputError, match="neighbours.*shum-2013.*found 'holt'"):
         ossa.Tracker("holt", neighbours=3)
 
@@ -288,14 +288,14 @@ def test_physics_moves_joints(images, models):
     assert np.abs(np.array(plain) - physical).max() > 1e-4
 
 
-def test_bones_of_a_run_before_stay(images, models, frames):
+def test_given_bone_lengths_are_kept(images, models, frames):
     known = {1: frames[-1].bodies[0].bones_m}
     tracker = ossa.Tracker(models=models, bones_m=known)
     made = [tracker.track(*image).bodies[0].bones_m for image in images[:3]]
     assert np.allclose(made, known[1])
 
 
-def test_a_camera_on_its_side_gives_results_in_its_own_space(images, models):
+def test_rotated_camera_gives_results_in_its_own_space(images, models):
     upright = ossa.Tracker(models=models, parts=True)
     lying = ossa.Tracker(models=models, parts=True, probabilities=True, proposals=True)
     for depth_mm, camera, time_s in images[:3]:
@@ -316,7 +316,7 @@ def test_a_camera_on_its_side_gives_results_in_its_own_space(images, models):
 
 
 @pytest.mark.parametrize("lag", [0, 1, 2])
-def test_with_lag_every_frame_comes_once_at_its_time(lag, clip):
+def test_lag_returns_every_frame_once_with_its_time(lag, clip):
     now = list(ossa.Tracker(smoothing="none").run(clip))
     late = list(ossa.Tracker(smoothing="none", lag=lag).run(clip))
     assert [f.time_s for f in late] == [f.time_s for f in now]
@@ -325,7 +325,7 @@ def test_with_lag_every_frame_comes_once_at_its_time(lag, clip):
     assert any(differs) == (lag > 0)
 
 
-def test_a_late_frame_is_none_until_its_time_has_come(images, models):
+def test_lagged_track_returns_none_until_the_first_frame_is_due(images, models):
     tracker = ossa.Tracker(models=models, lag=2)
     frames = [tracker.track_late(*image) for image in images[:3]]
     assert [frame is None for frame in frames] == [True, True, False]
@@ -334,13 +334,13 @@ def test_a_late_frame_is_none_until_its_time_has_come(images, models):
     assert held[2] is None
 
 
-def test_time_left_out_goes_on_by_a_thirtieth_of_a_second(images, models):
+def test_default_time_advances_by_a_thirtieth_of_a_second(images, models):
     tracker = ossa.Tracker(models=models)
     times = [tracker.track(image.depth_mm, image.camera).time_s for image in images[:3]]
     assert np.allclose(times, [0, 1 / 30, 2 / 30])
 
 
-def test_reset_forgets_everybody(images, models):
+def test_reset_deletes_all_people(images, models):
     tracker = ossa.Tracker(models=models)
     first = tracker.track(*images[0])
     tracker.reset()
@@ -353,7 +353,7 @@ def test_models_of_another_method_are_refused(models):
         ossa.Tracker("holt", models=models)
 
 
-def test_a_person_file_is_read_and_named_when_damaged(clip, images, models, command, tmp_path):
+def test_person_file_is_read_and_named_when_damaged(clip, images, models, command, tmp_path):
     me = tmp_path / "me.ossaperson"
     command("track", clip, "--save-person", me, "--quiet")
     known = ossa.Tracker(models=models, person=me).track(*images[0]).bodies[0].fit.shape
@@ -365,7 +365,7 @@ def test_a_person_file_is_read_and_named_when_damaged(clip, images, models, comm
         ossa.Tracker(models=models, person=[me])
 
 
-def test_a_scene_tells_its_things_and_the_camera_may_be_said_to_be_level(clip, models, tmp_path):
+def test_scene_objects_are_returned_and_mount_can_be_level(clip, models, tmp_path):
     scene = tmp_path / "room.toml"
     scene.write_text(SCENE)
     frames = list(ossa.Tracker(models=models, scene=scene, mount="level").run(clip))
@@ -392,7 +392,7 @@ if child:
 """
 
 
-def test_goes_on_in_a_process_forked_while_tables_are_made(clip, tmp_path):
+def test_forked_process_tracks_while_tables_are_built(clip, tmp_path):
     done = subprocess.run(
         [sys.executable, "-c", FORKS, str(clip), str(tmp_path)],
         env={**os.environ, "OSSA_CACHE": str(tmp_path)},

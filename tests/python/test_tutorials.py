@@ -1,4 +1,4 @@
-"""The tutorials run as they stand."""
+"""The tutorials run unchanged."""
 
 import os
 import pathlib

@@ -8,14 +8,14 @@
 
 namespace ossa::test {
 
-/// What reading a file came to: all that was read, as bytes, and whether a person was warned that
+/// The result of reading a file: all that was read, as bytes, and whether a warning said that
 /// something is missing.
 struct Reading {
   std::string content;
   bool warned = false;
 };
 
-/// Appends all that is read of a frame.
+/// Appends all fields of a frame.
 void AppendFrame(const depth::DepthFrame& frame, std::string* content);
 
 /// A whole file and how it is read.
@@ -25,11 +25,11 @@ struct DamageSample {
   std::function<Reading(const std::filesystem::path&)> read;  // throws InputError
 };
 
-/// How damaged copies of a sample came out.
+/// The outcomes of the damaged copies of a sample.
 struct DamageOutcomes {
   size_t tried = 0;
   size_t refused = 0;  // by an InputError
-  size_t same = 0;     // read as the whole one: what was damaged says nothing
+  size_t same = 0;     // read as the undamaged one: the damaged bytes carry no content
   size_t warned = 0;   // less was read, with a note
   size_t silent = 0;   // something else was read as if it were right
   std::string first_silent;

@@ -1,4 +1,4 @@
-// No damage to a file that carries a checksum passes in silence.
+// No damage to a file that carries a checksum stays undetected.
 //   robustness_test                          a few hundred damaged copies of each sample
 //   OSSA_ROBUSTNESS=full robustness_test     cut at every byte, every bit flipped; prints the table
 //                                            of docs/benchmarks/robustness.md
@@ -35,14 +35,14 @@ class Damage : public testing::TestWithParam<size_t> {
   }
 };
 
-TEST_P(Damage, OfAnEndThatIsMissingIsNoticed) {
+TEST_P(Damage, TruncatedFilesAreDetected) {
   const DamageOutcomes outcomes = CutShort(Sample(), StepFor(Sample().bytes.size(), 200));
   Print("cut short", Sample(), outcomes);
   EXPECT_GT(outcomes.refused, 0U);
   EXPECT_EQ(outcomes.silent, 0U) << Sample().name << ": " << outcomes.first_silent;
 }
 
-TEST_P(Damage, OfAFlippedBitIsNoticed) {
+TEST_P(Damage, FlippedBitsAreDetected) {
   const DamageOutcomes outcomes = FlipBits(Sample(), StepFor(8 * Sample().bytes.size(), 500));
   Print("a bit flipped", Sample(), outcomes);
   EXPECT_GT(outcomes.refused, 0U);
@@ -66,13 +66,13 @@ class PlainDamage : public testing::TestWithParam<size_t> {
   const DamageSample* sample_ = nullptr;
 };
 
-TEST_P(PlainDamage, OfAnEndThatIsMissingIsNoticed) {
+TEST_P(PlainDamage, TruncatedFilesAreDetected) {
   const DamageOutcomes outcomes = CutShort(*sample_, Step(sample_->bytes.size(), 30));
   Print("cut short", *sample_, outcomes);
   EXPECT_EQ(outcomes.silent, 0U) << sample_->name << ": " << outcomes.first_silent;
 }
 
-TEST_P(PlainDamage, OfAFlippedBitEndsNothing) {
+TEST_P(PlainDamage, FlippedBitsDoNotCrash) {
   const DamageOutcomes outcomes = FlipBits(*sample_, Step(8 * sample_->bytes.size(), 50));
   Print("a bit flipped", *sample_, outcomes);
   EXPECT_GT(outcomes.refused + outcomes.same, 0U);
@@ -80,7 +80,7 @@ TEST_P(PlainDamage, OfAFlippedBitEndsNothing) {
 
 INSTANTIATE_TEST_SUITE_P(EachFormat, PlainDamage, testing::Range<size_t>(0, 4));
 
-TEST(DamageSamples, AreAsManyAsAreTried) { EXPECT_EQ(ChecksummedSamples().size(), 13U); }
+TEST(DamageSamples, AreAsManyAsTried) { EXPECT_EQ(ChecksummedSamples().size(), 13U); }
 
 }  // namespace
 }  // namespace ossa::test

@@ -9,8 +9,8 @@ namespace ossa::test {
 /// All images of a SOURCE, their times and cameras; warned: a warning was given.
 Reading ReadRecording(const std::filesystem::path& path);
 
-/// Recordings whose images nothing vouches for: .mkv and, where rosbag is there, .bag plain and
-/// compressed. A bit flipped in a depth is another depth; the rest of the file must hold.
+/// Recordings whose images have no checksum: .mkv and, where rosbag is installed, .bag plain and
+/// compressed. A bit flipped in a depth gives another depth; damage elsewhere must be detected.
 std::vector<DamageSample> PlainRecordings();
 
 }  // namespace ossa::test

@@ -79,7 +79,7 @@ class Names(unittest.TestCase):
     def truth(self, frame):
         return {name: joint["p"] for name, joint in frame["bodies"][0]["joints"].items()}
 
-    def test_a_reader_that_is_not_ours_finds_the_joints_where_they_are(self):
+    def test_independent_reader_gets_the_joint_positions(self):
         for names, name_of in NAMES.items():
             motion = Bvh(write(names).read_text())
             self.assertEqual(motion.nframes, len(self.frames))
@@ -88,7 +88,7 @@ class Names(unittest.TestCase):
                 for bone, joint in PLACES.items():
                     self.assertLess(math.dist(places[name_of(bone)], truth[joint]), MOST_M, (names, bone))
 
-    def test_the_rest_pose_is_a_t_pose_with_the_left_at_plus_x(self):
+    def test_rest_pose_is_a_t_pose_with_the_left_at_plus_x(self):
         motion = Bvh(write("cmu").read_text())
         for bone, axis, sign in (("LeftForeArm", 0, 1), ("RightForeArm", 0, -1), ("LeftLeg", 1, -1), ("Head", 1, 1),
                                  ("LeftToeBase", 2, 1)):
@@ -102,7 +102,7 @@ class Names(unittest.TestCase):
             error_cm = next(line for line in table.splitlines() if "mean error cm" in line).split("|")[2]
             self.assertLess(float(error_cm), 1.5)
 
-    def test_names_are_refused_where_no_bvh_is_written(self):
+    def test_names_are_refused_for_formats_other_than_bvh(self):
         result = subprocess.run([BUILD / "bin" / "ossa", "track", ONE, "--out", WORK / "x.jsonl", "--bvh-names", "vrm"],
                                 capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 2)
@@ -112,7 +112,7 @@ class Names(unittest.TestCase):
 class Blender(Names):
     """The same through Blender: z up, -y forwards."""
 
-    def test_a_reader_that_is_not_ours_finds_the_joints_where_they_are(self):
+    def test_independent_reader_gets_the_joint_positions(self):
         for names, name_of in NAMES.items():
             bpy.ops.wm.read_factory_settings(use_empty=True)
             bpy.ops.import_anim.bvh(filepath=str(write(names)), global_scale=0.01, update_scene_fps=True)

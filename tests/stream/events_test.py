@@ -58,14 +58,14 @@ class Events(unittest.TestCase):
         body = next(frame for frame in frames if frame["bodies"])["bodies"][0]
         self.assertEqual(len(body["joints"]["HandLeft"]["p"]), 3)
 
-    def test_view_of_a_source(self):
+    def test_view_sends_events_of_a_source(self):
         self.check(self.run_and_read("view", str(ONE)))
 
-    def test_view_of_a_camera_that_is_tracked(self):
+    def test_view_sends_events_of_a_camera(self):
         self.check(self.run_and_read("track", f"openni:ossa://{ONE}?loop=1", "--view", "--quiet"))
 
 
-    def test_pages_of_this_machine_may_read_them(self):
+    def test_pages_of_this_machine_can_read_events(self):
         process, port = start("view", str(ONE))
         try:
             self.assertEqual(allowed_origin(port, "http://localhost:3000"), "http://localhost:3000")

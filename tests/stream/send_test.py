@@ -68,18 +68,18 @@ class OnePerson(unittest.TestCase):
         for datagram, frame, room in zip(datagrams, self.frames, self.rooms):
             yield messages(datagram), frame, joints_in(room, frame["bodies"][0])
 
-    def test_a_performer_says_that_it_is_there_and_when(self):
+    def test_vmc_sends_availability_and_time(self):
         for packet, frame, _ in self.moments(self.vmc):
             self.assertIn(("/VMC/Ext/OK", [1]), packet)
             self.assertAlmostEqual(rebuilt(packet)[1], frame["time_s"], places=4)
 
-    def test_the_bones_of_a_performer_are_where_the_joints_are(self):
+    def test_vmc_bones_are_at_the_joints(self):
         for packet, _, joints in self.moments(self.vmc):
             world, _ = rebuilt(packet)
             for bone, (_, joint, _, _) in BONES.items():
                 self.assertLess(math.dist(world[bone][0], joints[joint]), MOST_M, bone)
 
-    def test_every_bone_of_unity_s_humanoid_is_sent(self):
+    def test_vmc_sends_every_bone_of_the_unity_humanoid(self):
         """55 of HumanBodyBones: what is not seen is at rest, as long as the person's hands and head are."""
         for packet, _, joints in self.moments(self.vmc):
             bones = {v[0]: v[1:] for a, v in packet if a == "/VMC/Ext/Bone/Pos"}
@@ -97,13 +97,13 @@ class OnePerson(unittest.TestCase):
             self.assertGreater(bones["RightThumbProximal"][0], 0)
             self.assertGreater(bones["LeftThumbProximal"][2], 0)  # palms are down, thumbs forwards
 
-    def test_bones_that_are_not_seen_can_be_left_to_others(self):
+    def test_vmc_can_leave_out_unseen_bones(self):
         vmc = receivers.Receiver()
         track(ONE, WORK / "seen.jsonl", f"vmc://127.0.0.1:{vmc.port}?bones=seen")
         for datagram in vmc.finish()[0]:
             self.assertEqual({v[0] for a, v in messages(datagram) if a == "/VMC/Ext/Bone/Pos"}, set(BONES))
 
-    def test_rotations_alone_turn_a_t_pose_into_the_pose_left_on_the_left(self):
+    def test_vmc_rotations_alone_reproduce_the_pose(self):
         for packet, _, joints in self.moments(self.vmc):
             world, _ = rebuilt(packet)
             for bone, (_, begin, end, rest) in BONES.items():
@@ -112,7 +112,7 @@ class OnePerson(unittest.TestCase):
                 along = unit([b - a for a, b in zip(joints[begin], joints[end])])
                 self.assertLess(math.dist(rotate(world[bone][1], rest), along), 0.01, bone)
 
-    def test_who_faces_the_sensor_faces_forwards(self):
+    def test_person_facing_the_sensor_faces_forwards(self):
         """Left is -x of the body's own frame, and the feet point to +z of it: Unity's left-handed axes."""
         for packet, _, joints in self.moments(self.vmc):
             world, _ = rebuilt(packet)
@@ -123,13 +123,13 @@ class OnePerson(unittest.TestCase):
             # In a left-handed frame right x up = -forward of the right-handed product.
             self.assertGreater(sum(a * b for a, b in zip(cross([-c for c in left], UP), front)), 0)
 
-    def test_the_floor_is_at_0(self):
+    def test_floor_is_at_zero_height(self):
         feet = [joints[name][1] for _, frame, joints in self.moments(self.vmc) for name in ("FootLeft", "FootRight")
                 if frame["bodies"][0]["joints"][name]["state"] == "tracked"]
         self.assertGreater(len(feet), 5)
         self.assertTrue(all(-0.1 < y < 0.15 for y in feet), feet)
 
-    def test_vrchat_gets_eight_trackers_and_the_head_scaled(self):
+    def test_vrchat_receives_eight_scaled_trackers_and_the_head(self):
         places = {"1": "HipCenter", "2": "Spine", "3": "AnkleLeft", "4": "AnkleRight", "5": "KneeLeft",
                   "6": "KneeRight", "7": "ElbowLeft", "8": "ElbowRight", "head": "Head"}
         for packet, _, joints in self.moments(self.vrchat):
@@ -139,7 +139,7 @@ class OnePerson(unittest.TestCase):
                 place = packet[f"/tracking/trackers/{tracker}/position"]
                 self.assertLess(math.dist(place, [1.25 * c for c in joints[joint]]), 1.25 * MOST_M)
 
-    def test_vrchat_s_angles_turn_a_t_pose_into_the_pose(self):
+    def test_vrchat_angles_reproduce_the_pose(self):
         turned = {"5": "LeftLowerLeg", "6": "RightLowerLeg", "7": "LeftLowerArm", "8": "RightLowerArm"}
         for packet, _, joints in self.moments(self.vrchat):
             packet = dict(packet)
@@ -148,7 +148,7 @@ class OnePerson(unittest.TestCase):
                 along = unit([b - a for a, b in zip(joints[begin], joints[end])])
                 self.assertLess(math.dist(by_euler(packet[f"/tracking/trackers/{tracker}/rotation"], rest), along), 0.01)
 
-    def test_a_datagram_is_a_line_of_the_skeleton_file(self):
+    def test_udp_datagram_is_a_line_of_the_skeleton_file(self):
         self.assertEqual([d.decode() for d in self.lines], self.text)
 
 
@@ -163,7 +163,7 @@ def by_euler(degrees, v):
 
 
 class Sending(unittest.TestCase):
-    def test_every_person_has_a_port(self):
+    def test_every_person_has_their_own_port(self):
         vmc, out = receivers.Receiver(3), WORK / "two.jsonl"
         track(TWO, out, f"vmc://127.0.0.1:{vmc.port}")
         first, second, third = vmc.finish()
@@ -179,7 +179,7 @@ class Sending(unittest.TestCase):
                 hips = rebuilt(messages(datagram))[0]["Hips"][0]
                 self.assertLess(math.dist(hips, room(body["joints"]["HipCenter"]["p"])), MOST_M)
 
-    def test_nobody_who_listens_costs_nothing(self):
+    def test_absent_receiver_does_not_slow_tracking(self):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
@@ -190,7 +190,7 @@ class Sending(unittest.TestCase):
         self.assertLess(time.monotonic() - began, 60)
         self.assertEqual(sent.read_bytes(), alone.read_bytes())
 
-    def test_wrong_targets_are_refused(self):
+    def test_invalid_targets_are_refused(self):
         for wrong in ("udp://127.0.0.1", "vmc://:1", "tcp://h:1", "vmc://h:70000", "vrchat://h?scale=0", "vmc://h?scale=2",
                       "vrchat://h?bones=all", "vmc://h?bones=some"):
             self.assertIn(f"--send {wrong}: expected", track(ONE, WORK / "x.jsonl", wrong, expect=2).stderr)

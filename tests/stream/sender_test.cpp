@@ -18,7 +18,7 @@
 namespace ossa::stream {
 namespace {
 
-// What is sent to a port of this machine.
+// The datagrams sent to a port of this machine.
 class Receiver {
  public:
   explicit Receiver(in_addr_t at = INADDR_LOOPBACK) {
@@ -63,7 +63,7 @@ float TimeIn(const std::string& bundle) {
 }
 
 // A float of the seconds since 1970 has steps of 128.
-TEST(Sender, APerformersTimeCountsFromTheFirstFrame) {
+TEST(Sender, TimeOfAPerformerCountsFromTheFirstFrame) {
   const Receiver receiver;
   Sender sender({ParseTarget("vmc://127.0.0.1:" + std::to_string(receiver.port()))});
   tracker::BodyFrame frame;
@@ -89,7 +89,7 @@ tracker::BodyFrame FrameOf(double time_s, const std::vector<int>& ids) {
   return frame;
 }
 
-// Whom each of the frames shows VRChat, by the head's x, which says the id; 0: nobody.
+// The person whom VRChat receives in each frame, by the head's x, which is the id; 0: nobody.
 std::vector<int> WhomVrchatGets(const std::vector<tracker::BodyFrame>& frames) {
   const Receiver receiver;
   Sender sender({ParseTarget("vrchat://127.0.0.1:" + std::to_string(receiver.port()))});
@@ -108,13 +108,13 @@ std::vector<int> WhomVrchatGets(const std::vector<tracker::BodyFrame>& frames) {
   return whom;
 }
 
-TEST(Sender, VrchatGetsTheNextPersonOnceTheFirstIsGone) {
+TEST(Sender, VrchatReceivesTheNextPersonAfterTheFirstLeft) {
   EXPECT_EQ(WhomVrchatGets({FrameOf(0.0, {1, 2}), FrameOf(0.1, {2}), FrameOf(1.9, {2}),
                             FrameOf(2.5, {2}), FrameOf(2.6, {2, 3})}),
             (std::vector<int>{1, 0, 0, 2, 2}));
 }
 
-TEST(Sender, VrchatGetsTheFirstPersonAgainWhoWasAwayForAMoment) {
+TEST(Sender, VrchatReceivesTheFirstPersonAgainAfterAShortAbsence) {
   EXPECT_EQ(WhomVrchatGets({FrameOf(0.0, {1, 2}), FrameOf(0.1, {2}), FrameOf(0.2, {1, 2})}),
             (std::vector<int>{1, 0, 1}));
   EXPECT_EQ(WhomVrchatGets({FrameOf(0.0, {1, 2}), FrameOf(0.1, {2}), FrameOf(0.2, {2, 3})}),
@@ -122,8 +122,8 @@ TEST(Sender, VrchatGetsTheFirstPersonAgainWhoWasAwayForAMoment) {
       << "with a new id, in the seat that was theirs";
 }
 
-// What "localhost" has on Debian: ::1 first, where no avatar's program listens.
-TEST(UdpSocket, ANameThatHasBothKindsOfAddressIsReachedByIPv4) {
+// The addresses of "localhost" on Debian: ::1 first, where no receiver listens.
+TEST(UdpSocket, HostWithBothKindsOfAddressIsReachedByIPv4) {
   addrinfo v4{}, v6{};
   v4.ai_family = AF_INET;
   v6.ai_family = AF_INET6;
@@ -133,7 +133,7 @@ TEST(UdpSocket, ANameThatHasBothKindsOfAddressIsReachedByIPv4) {
   EXPECT_EQ(&ChooseAddress(v6), &v4);
 }
 
-TEST(UdpSocket, AWholeNetworkMayBeSentTo) {
+TEST(UdpSocket, SendsToABroadcastAddress) {
   const Receiver receiver(INADDR_ANY);
   const UdpSocket socket(ParseTarget("udp://127.255.255.255:" + std::to_string(receiver.port())));
   socket.Send("x", 0);
@@ -142,7 +142,7 @@ TEST(UdpSocket, AWholeNetworkMayBeSentTo) {
 }
 
 // 65536 would be port 0 of 16 bits, 65538 port 2.
-TEST(UdpSocket, BehindTheLastPortThereIsNone) {
+TEST(UdpSocket, RefusesPortsBeyondTheLast) {
   const Receiver receiver;
   Target target = ParseTarget("udp://127.0.0.1:1");
   target.port = receiver.port();

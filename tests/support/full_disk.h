@@ -6,7 +6,7 @@
 
 namespace ossa::test {
 
-/// For this process, as long as it lives, no file grows beyond so many bytes: as on a full disk.
+/// During its lifetime no file of this process grows beyond that many bytes, as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(uint64_t bytes) : handler_before_(signal(SIGXFSZ, SIG_IGN)) {

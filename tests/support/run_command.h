@@ -7,7 +7,7 @@
 
 namespace ossa::test {
 
-/// What a command left behind.
+/// The result of a command.
 struct CommandResult {
   int exit_status = -1;  // 128 + signal if a signal ended it, as a shell says
   std::string out;

@@ -2,7 +2,7 @@
 
 namespace ossa::test {
 
-/// True where memory is watched by AddressSanitizer, which keeps what is freed and takes its own.
+/// True under AddressSanitizer, which delays the freeing of memory and takes more of it.
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool kSanitized = true;
 #elif defined(__has_feature)

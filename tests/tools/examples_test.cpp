@@ -1,5 +1,5 @@
-// tools/examples: what they print of a recording, and that they are built with ossa's sources as a
-// part of their own project. tests/run builds them against an installed ossa as well.
+// tools/examples: their output for a recording, and that they build with the sources of ossa as a
+// subdirectory. tests/run also builds them against an installed ossa.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -41,7 +41,7 @@ std::vector<HeadLine> HeadsBy(const std::string& example) {
   return heads;
 }
 
-TEST(Examples, TheLiveTrackersInCppAndCSeeTheSameHeads) {
+TEST(Examples, LiveTrackersInCppAndCPrintTheSameHeads) {
   const auto cpp = HeadsBy("live_tracker"), c = HeadsBy("live_tracker_c");
   ASSERT_GT(cpp.size(), 20U);
   ASSERT_EQ(cpp.size(), c.size());
@@ -56,7 +56,7 @@ TEST(Examples, TheLiveTrackersInCppAndCSeeTheSameHeads) {
 }
 
 // The ball's fall ends with its impulse on the table's top; a pull of 400 N breaks a grip of 150 N.
-TEST(Examples, ThePhysicalWorldTellsWhatHappensInIt) {
+TEST(Examples, PhysicalWorldPrintsItsEvents) {
   const auto run = RunProgram({BinaryFolder() / "bin" / "physical_world"});
   EXPECT_EQ(run.exit_status, 0) << run.err;
   EXPECT_NE(run.out.find("an object touches an object"), std::string::npos) << run.out;
@@ -65,7 +65,7 @@ TEST(Examples, ThePhysicalWorldTellsWhatHappensInIt) {
   EXPECT_NE(run.out.find("the mace is 0.3"), std::string::npos) << run.out;
 }
 
-TEST(Examples, SayInOneLineWhatIsWrong) {
+TEST(Examples, ReportErrorsInOneLine) {
   for (const char* example : {"live_tracker", "live_tracker_c"}) {
     const auto run = RunProgram({BinaryFolder() / "bin" / example, "/nowhere.oni"});
     EXPECT_EQ(run.exit_status, 1) << example;
@@ -74,9 +74,9 @@ TEST(Examples, SayInOneLineWhatIsWrong) {
   }
 }
 
-// FetchContent brings the sources by add_subdirectory: nothing in them may take the other project's
-// folders for ossa's own. All is configured and one source of the example compiled.
-TEST(Examples, AreConfiguredWithOssasSourcesAsAPartOfTheirProject) {
+// FetchContent adds the sources by add_subdirectory, where CMAKE_SOURCE_DIR is the other project's.
+// All is configured and one source of the example compiled.
+TEST(Examples, BuildWithOssaAsASubdirectory) {
   const TemporaryFolder folder;
   const std::string build = folder / "build";
   const auto configured = RunProgram(
@@ -93,9 +93,9 @@ TEST(Examples, AreConfiguredWithOssasSourcesAsAPartOfTheirProject) {
   }
 }
 
-// Who links an installed ossa of static libraries links what those link: its package file must find
-// all of it. Configured, not built.
-TEST(Examples, APackageOfStaticLibrariesFindsWhatTheyLink) {
+// A program that links static libraries of ossa also links their dependencies, which the package
+// file must find. Configured, not built.
+TEST(Examples, BuildAgainstAPackageOfStaticLibraries) {
   const TemporaryFolder folder;
   const std::string ossa = folder / "ossa", project = folder / "project";
   const auto configured =

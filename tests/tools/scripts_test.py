@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Manners of the scripts: help and wrong arguments do nothing else, and tools/demo takes a folder as it finds it.
+"""Conventions of the scripts: help, wrong arguments without side effects, and existing folders for tools/demo.
 
 Usage: scripts_test.py
 """
@@ -40,7 +40,7 @@ class Arguments(unittest.TestCase):
     def check_that_nothing_is_made(self):
         self.assertEqual(os.listdir(self.temporary.name), [])
 
-    def test_help_says_what_a_script_is_for(self):
+    def test_help_describes_the_script(self):
         for script in WITH_HELP:
             done = run(script, "--help", cwd=self.temporary.name)
             self.assertEqual((done.returncode, done.stderr), (0, ""), script)
@@ -48,13 +48,13 @@ class Arguments(unittest.TestCase):
             self.assertGreater(len(done.stdout.splitlines()), 2, script)
         self.check_that_nothing_is_made()
 
-    def test_a_folder_of_somebody_elses_files_is_no_root(self):
+    def test_folder_with_other_files_is_refused_as_root(self):
         mine = pathlib.Path(self.temporary.name) / "mine.txt"
         mine.touch()
         self.assertEqual(run("tests/arm64/make_root", self.temporary.name).returncode, 2)
         self.assertTrue(mine.exists())
 
-    def test_wrong_ones_are_refused(self):
+    def test_invalid_ones_are_refused(self):
         for script in (*WITH_HELP, *OF_TESTS):
             done = run(script, "--nonsense", cwd=self.temporary.name)
             self.assertEqual(done.returncode, 2, f"{script}: {done.stdout}{done.stderr}")
@@ -65,7 +65,7 @@ class Arguments(unittest.TestCase):
 
 
 class FetchedFolder(unittest.TestCase):
-    """What tools/fetch_body and tools/fetch_mocap do to the folder that they fetch into."""
+    """The folder that tools/fetch_body and tools/fetch_mocap fetch into."""
 
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -83,7 +83,7 @@ class FetchedFolder(unittest.TestCase):
     def files(self):
         return sorted(os.listdir(self.folder))
 
-    def test_appears_whole_and_once(self):
+    def test_appears_complete_and_once(self):
         self.assertEqual((self.fetch(), self.fetch()), (1, 0))
         self.assertEqual(self.files(), ["body.obj", MARK])
         self.assertEqual(sorted(os.listdir(self.folder.parent)), ["data", "x.whl"])
@@ -95,7 +95,7 @@ class FetchedFolder(unittest.TestCase):
         self.assertEqual(self.fetch(), 1)
         self.assertEqual(self.files(), ["body.obj", MARK])
 
-    def test_that_another_fetch_put_there_meanwhile_stays(self):
+    def test_of_a_concurrent_fetch_is_kept(self):
         def place(member):
             self.data.place = lambda member: None
             self.folder.mkdir()
@@ -106,7 +106,7 @@ class FetchedFolder(unittest.TestCase):
         self.fetch()
         self.assertEqual(self.files(), [MARK, "theirs.obj"])
 
-    def test_that_holds_somebody_elses_files_is_left_alone(self):
+    def test_with_other_files_is_not_changed(self):
         self.folder.mkdir()
         (self.folder / "mine.txt").touch()
         with self.assertRaises(SystemExit) as refused:
@@ -141,7 +141,7 @@ class Demo(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout, self.said.read_text()
 
-    def test_says_at_its_end_a_command_that_can_be_pasted(self):
+    def test_prints_a_command_that_can_be_pasted_at_its_end(self):
         out, _ = self.play()
         words = shlex.split(out.splitlines()[-1].split("browser: ")[1])
         self.assertEqual(words, [str(self.build / "bin/ossa"), "view", str(self.top / "out/demo/clip.oni"), "--physics", "on"])
@@ -164,7 +164,7 @@ class Demo(unittest.TestCase):
         self.assertNotIn(" -S ", said)
         self.assertIn("cmake --build", said)
 
-    def test_leaves_the_generator_of_a_folder_whose_configuration_was_cut_off(self):
+    def test_keeps_the_generator_of_an_incomplete_configuration(self):
         (self.build / "CMakeCache.txt").touch()
         said = self.play()[1]
         self.assertIn(" -S ", said)

@@ -1,4 +1,4 @@
-"""A headless Chromium that looks at `ossa view`, by Selenium: Debian's chromium, chromium-driver, python3-selenium."""
+"""A headless Chromium that opens the page of `ossa view`, by Selenium: Debian's chromium, chromium-driver, python3-selenium."""
 import atexit
 import io
 import os

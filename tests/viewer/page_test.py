@@ -1,4 +1,4 @@
-"""`ossa view` as people see it, in a headless Chromium. With --pictures FOLDER the pictures of docs/viewer.md are
+"""The page of `ossa view` in a headless Chromium. With --pictures FOLDER the pictures of docs/viewer.md are
 written there; without, beside the test."""
 import json
 import pathlib
@@ -55,7 +55,7 @@ class InBrowser(unittest.TestCase):
         self.assertEqual([entry["message"] for entry in self.page.console_errors()], [])
 
 
-class OfARecording(InBrowser):
+class RecordingPage(InBrowser):
     @classmethod
     def setUpClass(cls):
         cls.command = Command("view", CLIP, "--over", CLIP / "truth.jsonl")
@@ -69,7 +69,7 @@ class OfARecording(InBrowser):
         page.run("page.jump(0)")
         page.wait_for_frame(0)
 
-    def test_scrubbing_lands_on_the_frame_asked_for(self):
+    def test_scrubbing_shows_the_chosen_frame(self):
         page, frames = self.page, self.page.run("return page.total")
         left, top, width, height = page.box("#strip")
         for frame in (17, 3, frames - 1):
@@ -86,7 +86,7 @@ class OfARecording(InBrowser):
             self.assertEqual(page.run("return [...page.moment.depth.slice(0, 60000)]"),
                              list(depth.astype("<u2").tobytes()[:60000]))
 
-    def test_a_joint_is_where_projection_says(self):
+    def test_joints_are_drawn_at_their_projection(self):
         page = self.page
         page.run("page.jump(12)")
         page.wait_for_frame(12)
@@ -104,7 +104,7 @@ class OfARecording(InBrowser):
             self.assertTrue(near_colour(picture, PERSON_1, *map(round, at), 2), f"{name} at {at}")
             self.assertFalse(near_colour(picture, PERSON_1, round(at[0]) + 150, round(at[1]), 2), "nobody is there")
 
-    def test_layers_switch(self):
+    def test_layers_can_be_switched(self):
         page = self.page
         page.run("page.jump(12)")
         page.wait_for_frame(12)
@@ -124,7 +124,7 @@ class OfARecording(InBrowser):
             seen.add(page.picture_of("#stage").tobytes())
         self.assertEqual(len(seen), 3, "by depth, person and part")
 
-    def test_a_fitted_body_lies_where_its_person_is_seen(self):
+    def test_fitted_body_covers_the_pixels_of_its_person(self):
         page = self.page
         page.run("page.jump(12)")
         page.wait_for_frame(12)
@@ -145,7 +145,7 @@ class OfARecording(InBrowser):
         body = (page.picture_of("#stage") != nothing).any(axis=2)
         self.assertGreater(body.sum(), 1000)
 
-    def test_worst_frames_are_a_click_away(self):
+    def test_click_shows_the_worst_frames(self):
         page = self.page
         page.wait("return document.querySelectorAll('#worst button').length > 0", "worst frames")
         self.assertIn("cm", page.run("return document.querySelector('#worst button').innerText"))
@@ -165,7 +165,7 @@ class OfARecording(InBrowser):
             }).catch(error => done(error.message));""")
         self.assertIsNone(error)
 
-    def test_it_plays_and_pauses_and_steps(self):
+    def test_plays_pauses_and_steps(self):
         page = self.page
         page.press(".")
         page.wait_for_frame(1)
@@ -178,7 +178,7 @@ class OfARecording(InBrowser):
         page.press("?")
         self.assertIn("play, pause", page.run("return document.getElementById('keys').innerText"))
 
-    def test_the_button_says_play_again_at_the_end(self):
+    def test_button_says_play_again_at_the_end(self):
         page = self.page
         page.click("#loop")
         page.run("page.jump(page.total - 2)")
@@ -193,7 +193,7 @@ class OfARecording(InBrowser):
         self.page.send(Keys.TAB)
         self.assertTrue(self.page.run("return document.activeElement.matches(arguments[0])", selector), selector)
 
-    def test_without_a_mouse_space_presses_what_tab_led_to(self):
+    def test_space_presses_the_button_focused_by_tab(self):
         page = self.page
         self.focus_by_tab("[data-view=orbit]", "[data-view=camera]")
         page.send(" ")
@@ -203,13 +203,13 @@ class OfARecording(InBrowser):
         page.send(" ")
         self.assertTrue(page.run("return page.player.playing"), "after a click it plays")
 
-    def test_keys_work_after_a_click_on_a_box(self):
+    def test_keys_work_after_a_click_on_a_checkbox(self):
         page = self.page
         page.click("[data-layer=trails]")
         page.send(".")
         page.wait_for_frame(1)
 
-    def test_a_screen_reader_hears_names_and_people_and_not_every_frame(self):
+    def test_screen_reader_gets_labels_and_people_but_not_every_frame(self):
         page = self.page
         nameless = ("return [...document.querySelectorAll('button, canvas')]"
                     ".filter(e => !/[a-z]/.test(e.ariaLabel ?? e.textContent)).length")
@@ -223,7 +223,7 @@ class OfARecording(InBrowser):
         self.assertEqual(page.run("return [heard, document.querySelector('[role=status]').textContent]"), [0, "1 person"])
         self.assertRegex(page.run("return document.getElementById('strip').getAttribute('aria-valuetext')"), "frame 3 of")
 
-    def test_a_span_is_saved(self):
+    def test_selected_span_is_saved(self):
         page, downloads = self.page, WORK / "downloads"
         page.run("document.getElementById('export_panel').open = true;"
                  "document.getElementById('from').value = 2; document.getElementById('to').value = 9")
@@ -237,7 +237,7 @@ class OfARecording(InBrowser):
         self.assertEqual(glb[:4], b"glTF")
         self.assertEqual((len(scene["skins"]), len(scene["meshes"])), (1, 1), "a person in their skin")
 
-    def test_other_settings_track_it_anew(self):
+    def test_changed_settings_track_the_recording_again(self):
         page = self.page
         page.run("page.settings.inputs.find(i => i.dataset.setting === 'method').value = 'holt';"
                  "page.settings.inputs.find(i => i.dataset.setting === 'method').onchange()")
@@ -249,7 +249,7 @@ class OfARecording(InBrowser):
         page.run("page.player.tell({settings: {users: 6}})")
         page.wait("return page.state.complete && page.state.settings.users === 6", "and again")
 
-    def test_pictures_of_the_documentation(self):
+    def test_pictures_of_the_documentation_are_drawn(self):
         page = self.page
         self.driver.set_window_size(1280, 1060)
         self.addCleanup(self.driver.set_window_size, *browser.WINDOW)
@@ -265,8 +265,8 @@ class OfARecording(InBrowser):
         page.save("viewer_side.png", PICTURES)
 
 
-class OfACamera(InBrowser):
-    def test_it_is_live_and_records(self):
+class CameraPage(InBrowser):
+    def test_camera_is_shown_live_and_recorded(self):
         page = self.open(self.serve("view", CAMERA, "--record-to", WORK))
         self.assertFalse(page.run("return page.state.kept"))
         first = page.run("return page.moment.number")
@@ -282,7 +282,7 @@ class OfACamera(InBrowser):
         name = page.run("return page.state.recording.said")
         wait_for_file(WORK / name)
 
-    def test_on_a_phone(self):
+    def test_page_fits_a_phone(self):
         self.driver.set_window_size(420, 860)
         self.addCleanup(self.driver.set_window_size, *browser.WINDOW)
         page = self.open(self.serve("view", CAMERA))
@@ -294,7 +294,7 @@ class OfACamera(InBrowser):
         page.save("viewer_phone.png", PICTURES)
 
 
-    def test_it_goes_on_after_a_connection_that_never_opened(self):
+    def test_reconnects_after_a_connection_that_never_opened(self):
         page = self.open(self.serve("view", CAMERA))
         page.run("""
             const Real = WebSocket;
@@ -312,8 +312,8 @@ class OfACamera(InBrowser):
         page.wait(f"return page.moment.number > {lost}", "it goes on")
 
 
-class OfABrowserThatKeepsNothing(InBrowser):
-    def test_it_is_shown_all_the_same(self):
+class BrowserWithoutLocalStorage(InBrowser):
+    def test_page_works_without_local_storage(self):
         script = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('denied', 'SecurityError'); }})"
         added = self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
         self.addCleanup(self.driver.execute_cdp_cmd, "Page.removeScriptToEvaluateOnNewDocument", added)
@@ -321,8 +321,8 @@ class OfABrowserThatKeepsNothing(InBrowser):
         self.assertIn("person", self.page.run("return document.getElementById('say').textContent"))
 
 
-class OfPhysics(InBrowser):
-    def test_the_character_stands_where_its_person_does(self):
+class PhysicsPage(InBrowser):
+    def test_character_is_drawn_at_its_person(self):
         page = self.open(self.serve("view", CLIP, "--physics", "on"))
         page.wait("return page.state.complete && page.track.length === page.state.frames", "the whole recording")
         page.click("#play")
@@ -342,14 +342,14 @@ class OfPhysics(InBrowser):
         self.assertGreater((page.picture_of("#stage") != before).any(axis=2).sum(), 1000, "its capsules are to be seen")
 
 
-class OfASkeletonFile(InBrowser):
-    def test_it_is_shown_without_pictures(self):
+class SkeletonFilePage(InBrowser):
+    def test_skeletons_are_shown_without_images(self):
         page = self.open(self.serve("view", CLIP / "truth.jsonl"))
         self.assertTrue(page.run("return document.getElementById('pictures').hidden"))
         self.assertGreater(share_of_other_colours(page.picture_of("#stage")), 0.01)
 
 
-    def test_a_page_that_was_left_open_shows_the_next_run(self):
+    def test_open_page_shows_the_next_run(self):
         before = self.serve("view", CLIP)
         page = self.open(before)
         page.wait("return page.track.length > 0", "tracks")
@@ -360,8 +360,8 @@ class OfASkeletonFile(InBrowser):
         page.console_errors()  # of the connection
 
 
-class Elsewhere(InBrowser):
-    def test_a_token_opens_the_page_to_other_machines(self):
+class OtherMachines(InBrowser):
+    def test_token_opens_the_page_to_other_machines(self):
         command = self.serve("view", CLIP / "truth.jsonl", "--listen", "0.0.0.0")
         page = self.open(command)
         self.assertIn("token=", command.url)

@@ -62,7 +62,7 @@ TEST_F(CompareCommand, PrintsTablesAndWritesTheDocumentedJson) {
   EXPECT_NEAR(far.at("per_joint_cm").at("HandRight"), 25.0, 1e-3);
 }
 
-TEST_F(CompareCommand, WritesAReportThatNeedsNothingElse) {
+TEST_F(CompareCommand, WritesASelfContainedReport) {
   const std::string report = folder_ / "r.html";
   ASSERT_EQ(RunOssa({"compare", truth_, near_, "--report", report}).exit_status, 0);
   const std::string html = Content(report);
@@ -75,7 +75,7 @@ TEST_F(CompareCommand, WritesAReportThatNeedsNothingElse) {
   EXPECT_EQ(html.find("nan"), std::string::npos);
 }
 
-TEST_F(CompareCommand, SaysWhereTheReportIsAndWhatToTryWhenOriginsDiffer) {
+TEST_F(CompareCommand, PrintsThePathOfTheReportAndSuggestsAlignmentWhenOriginsDiffer) {
   const std::string report = folder_ / "r.html";
   const std::string moved = folder_ / "moved.jsonl";
   recon::WriteSkeletons(moved, Moved(ExampleSequence(20), 3.0));
@@ -87,7 +87,7 @@ TEST_F(CompareCommand, SaysWhereTheReportIsAndWhatToTryWhenOriginsDiffer) {
   EXPECT_EQ(run.out.find("--align rigid"), std::string::npos) << run.out;
 }
 
-// As it comes out of depth images that are mirrored.
+// The skeletons that mirrored depth images give.
 recon::SkeletonSequence Mirrored(recon::SkeletonSequence sequence) {
   for (auto& frame : sequence.frames) {
     for (auto& body : frame.bodies) {
@@ -101,7 +101,7 @@ recon::SkeletonSequence Mirrored(recon::SkeletonSequence sequence) {
   return sequence;
 }
 
-TEST_F(CompareCommand, SaysThatAResultIsOfMirroredImages) {
+TEST_F(CompareCommand, WarnsWhenAResultIsMirrored) {
   const std::string mirrored = folder_ / "mirrored.jsonl";
   recon::WriteSkeletons(mirrored, Mirrored(ExampleSequence(20)));
   auto run = RunOssa({"compare", truth_, mirrored});
@@ -113,7 +113,7 @@ TEST_F(CompareCommand, SaysThatAResultIsOfMirroredImages) {
   EXPECT_EQ(run.out.find("--mirrored"), std::string::npos) << run.out;
 }
 
-TEST_F(CompareCommand, TakesTruthAndEstimateOfOneFileThatHoldsBoth) {
+TEST_F(CompareCommand, ReadsTruthAndEstimateFromOneFileThatHoldsBoth) {
   const std::string both = folder_ / "both.csv";
   // UI-PRMD's columns: Kinect and Vicon, centimetres; the wrists are 5 cm apart.
   std::ofstream file(both);
@@ -158,9 +158,9 @@ TEST_F(CompareCommand, ComparesFoldersClipByClipWithIntervalsAndTests) {
   EXPECT_TRUE(found);
 }
 
-// A method that sees somebody who is not there keeps its clips in the paired tests.
-// Clips of a result without truth were left out without a word.
-TEST_F(CompareCommand, SaysWhichClipsHaveNoTruthOfTheirName) {
+// A method with a false body keeps its clips in the paired tests.
+// Clips of a result without truth were once left out silently.
+TEST_F(CompareCommand, ReportsClipsWithoutATruthOfTheSameName) {
   for (const char* name : {"truth/a.jsonl", "truth/b.jsonl", "result/a.jsonl", "result/B.jsonl"}) {
     std::filesystem::create_directories((folder_ / name).parent_path());
     std::filesystem::copy_file(truth_, folder_ / name);
@@ -172,7 +172,7 @@ TEST_F(CompareCommand, SaysWhichClipsHaveNoTruthOfTheirName) {
   EXPECT_NE(run.err.find("e.g. B"), std::string::npos) << run.err;
 }
 
-TEST_F(CompareCommand, PairsClipsInWhichAResultHasABodyTooMany) {
+TEST_F(CompareCommand, PairsClipsWhereAResultHasAnExtraBody) {
   for (const char* name : {"t", "a", "b"}) std::filesystem::create_directories(folder_ / name);
   for (int clip = 0; clip < 6; ++clip) {
     const std::string name = "/c" + std::to_string(clip) + ".jsonl";
@@ -193,8 +193,8 @@ TEST_F(CompareCommand, PairsClipsInWhichAResultHasABodyTooMany) {
   EXPECT_EQ(json["tests"][0]["clips"], 6);
 }
 
-// Of a file whose name no browser could read.
-TEST_F(CompareCommand, WritesAReportInUtf8WhateverItsFilesAreCalled) {
+// The name of the file is not valid UTF-8.
+TEST_F(CompareCommand, WritesAReportInUtf8ForAnyFileName) {
   const std::string odd = folder_ / "a<\xFF.jsonl", report = folder_ / "r.html";
   std::filesystem::copy_file(near_, odd);
   ASSERT_EQ(RunOssa({"compare", truth_, odd, "--report", report}).exit_status, 0);
@@ -203,8 +203,8 @@ TEST_F(CompareCommand, WritesAReportInUtf8WhateverItsFilesAreCalled) {
   EXPECT_EQ(page.find('\xFF'), std::string::npos);
 }
 
-// Who finds nobody has missed everybody: that is a row beside the others', not an error.
-TEST_F(CompareCommand, ShowsTheMissesOfAResultInWhichNobodyIs) {
+// A result without people misses everybody: a row of the table, not an error.
+TEST_F(CompareCommand, ReportsMissesOfAResultWithoutPeople) {
   auto nobody = ExampleSequence(20);
   for (auto& frame : nobody.frames) frame.bodies.clear();
   const std::string path = folder_ / "nobody.jsonl";
@@ -235,7 +235,7 @@ void PrintTo(const BadUse& value, std::ostream* out) { *out << value.name; }
 
 class BadCompare : public testing::TestWithParam<BadUse> {};
 
-TEST_P(BadCompare, IsOneLineAndTheRightStatus) {
+TEST_P(BadCompare, PrintsOneLineAndExitsWithTheDocumentedStatus) {
   const test::TemporaryFolder folder;
   recon::WriteSkeletons(folder / "good.jsonl", ExampleSequence(3));
   std::ofstream(folder / "empty.jsonl");
@@ -279,8 +279,8 @@ void PrintTo(const RealFigure& value, std::ostream* out) { *out << value.name; }
 
 class RealRecordings : public testing::TestWithParam<RealFigure> {};
 
-// The figures of the data's own READMEs, to the 0.1 cm to which they are promised.
-TEST_P(RealRecordings, GiveTheirPublishedFigures) {
+// The figures of the READMEs of the data, within 0.1 cm, the precision stated there.
+TEST_P(RealRecordings, ReproduceTheirPublishedFigures) {
   const RealFigure& figure = GetParam();
   const std::string path = (test::SharedFolder() / "real").string() + figure.path;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";

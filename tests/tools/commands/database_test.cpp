@@ -12,7 +12,7 @@ namespace {
 
 using test::RunOssa;
 
-TEST(DatabaseCommand, WritesADatabaseWithTheFilterAskedFor) {
+TEST(DatabaseCommand, WritesADatabaseWithTheRequestedFilter) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "x.ossadb";
   const auto run = RunOssa({"database", "--mocap", "authored", "--out", out, "--threshold", "0.5",
@@ -24,7 +24,7 @@ TEST(DatabaseCommand, WritesADatabaseWithTheFilterAskedFor) {
   EXPECT_EQ(database.options().threshold_m, 0.5);
 }
 
-TEST(DatabaseCommand, SaysWhatIsWrongInOneLine) {
+TEST(DatabaseCommand, ReportsErrorsInOneLine) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "x.ossadb";
   EXPECT_EQ(RunOssa({"database", "--out", out}).exit_status, 2);

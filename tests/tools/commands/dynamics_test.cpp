@@ -1,4 +1,4 @@
-// A recording without a floor gets one, and forces of who stands on it.
+// `ossa reconstruct --dynamics`: the floor is estimated, and forces of a person who stands on it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ using test::RunOssa;
 constexpr double kTilt_rad = 0.35;  // of the camera, downwards: 20 degrees
 constexpr double kMass_kg = 70.0;
 
-/// Camera space of a camera that looks down, 3 m before somebody who stands and sways.
+/// A person who stands and sways, 3 m away, in the camera space of a camera that looks down.
 Vector3d InCamera(const Vector3d& p) {
   return Eigen::AngleAxisd(kTilt_rad, Vector3d::UnitX()) * (p + Vector3d(0.0, 0.0, 3.0));
 }
@@ -75,13 +75,13 @@ std::vector<std::vector<double>> NumbersIn(const std::string& path) {
   return rows;
 }
 
-TEST_F(Dynamics, TheFloorIsFoundBelowWhoStands) {
+TEST_F(Dynamics, FindsTheFloorBelowAStandingPerson) {
   const auto run = Reconstruct({"--floor", "auto"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto floor = recon::ReadSkeletons(folder_ / "out.jsonl").frames.front().floor;
   ASSERT_TRUE(floor.has_value());
   const Vector3d up = Eigen::AngleAxisd(kTilt_rad, Vector3d::UnitX()) * Vector3d::UnitY();
-  EXPECT_LT(std::acos(floor->head<3>().dot(up)), 0.06);  // the stance itself leans by so much
+  EXPECT_LT(std::acos(floor->head<3>().dot(up)), 0.06);  // the stance itself leans by that
   double lowest_m = 10.0;
   for (const auto& p : recon::StandardStance().position_m) {
     lowest_m = std::min(lowest_m, floor->dot(InCamera(p).homogeneous()));
@@ -89,7 +89,7 @@ TEST_F(Dynamics, TheFloorIsFoundBelowWhoStands) {
   EXPECT_NEAR(lowest_m, 0.03, 0.02);  // of a foot joint above the sole
 }
 
-TEST_F(Dynamics, TheGroundCarriesTheWeightAlongItsNormal) {
+TEST_F(Dynamics, GroundForceEqualsTheWeightAlongTheFloorNormal) {
   const auto run = Reconstruct(
       {"--floor", "auto", "--physics", "on", "--mass", "70", "--dynamics", folder_ / "forces.csv"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
@@ -99,18 +99,18 @@ TEST_F(Dynamics, TheGroundCarriesTheWeightAlongItsNormal) {
   Vector3d mean = Vector3d::Zero();
   for (size_t f = 30; f < 90; ++f) mean += Vector3d(rows[f][2], rows[f][3], rows[f][4]) / 60.0;
   EXPECT_NEAR(mean.dot(floor->head<3>()), kMass_kg * 9.81, 0.02 * kMass_kg * 9.81);
-  // Left and right foot carry it together.
+  // The sum of both feet.
   for (size_t k = 2; k < 5; ++k) EXPECT_NEAR(rows[60][k], rows[60][k + 3] + rows[60][k + 6], 0.01);
 }
 
-TEST_F(Dynamics, APlaneIsTakenAsItIsTold) {
+TEST_F(Dynamics, UsesAFloorPlaneGivenByAnOption) {
   const auto run = Reconstruct({"--floor", "0,2,0,4"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto floor = recon::ReadSkeletons(folder_ / "out.jsonl").frames.back().floor;
   EXPECT_EQ(floor, Eigen::Vector4d(0.0, 1.0, 0.0, 2.0));
 }
 
-TEST_F(Dynamics, AskForWhatTheyNeed) {
+TEST_F(Dynamics, RefuseIncompleteOptions) {
   const auto refused = [&](std::vector<std::string> options, int status, const char* named) {
     const auto run = Reconstruct(std::move(options));
     EXPECT_EQ(run.exit_status, status) << run.err;

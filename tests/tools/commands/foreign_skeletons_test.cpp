@@ -1,5 +1,5 @@
-// Skeletons of other programs in every command that reads them: names told by --mapping, oddities
-// said on stderr, unknown names refused.
+// Skeletons of other programs in every command that reads them: joint names by --mapping, warnings
+// of oddities on stderr, unknown names refused.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -49,8 +49,8 @@ class ForeignSkeletons : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-// A table whose frames are counted, and a TRC, which says when they were.
-TEST_F(ForeignSkeletons, WithoutTimesAreAtTheRateThatIsSaid) {
+// A table with frame numbers only, and a TRC, which has times.
+TEST_F(ForeignSkeletons, WithoutTimesUseTheGivenFrameRate) {
   std::ofstream(folder_ / "table.txt") << "0 Head 0 0.8 2\n0 HipCenter 0 0 2\n"
                                           "1 Head 0 0.8 2\n1 HipCenter 0 0 2\n";
   const auto read_at_50_hz = [&](const std::string& file) {
@@ -68,7 +68,7 @@ TEST_F(ForeignSkeletons, WithoutTimesAreAtTheRateThatIsSaid) {
   EXPECT_NE(warning.find("x.trc: its frames have times of its own"), std::string::npos) << warning;
 }
 
-TEST_F(ForeignSkeletons, EveryCommandThatReadsThemTakesTheirRate) {
+TEST_F(ForeignSkeletons, FrameRateIsAnOptionOfEveryCommandThatReadsThem) {
   for (const char* command : {"compare", "reconstruct", "fuse", "learn", "view"}) {
     const auto run = test::RunOssa({command, "--help"});
     EXPECT_NE(run.out.find("--fps FLOAT"), std::string::npos) << command;
@@ -76,7 +76,7 @@ TEST_F(ForeignSkeletons, EveryCommandThatReadsThemTakesTheirRate) {
   }
 }
 
-TEST_F(ForeignSkeletons, WithoutKnownNamesAreRefusedInALineThatListsThem) {
+TEST_F(ForeignSkeletons, WithoutKnownJointNamesAreRefusedWithAListOfTheirNames) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"compare", folder_ / "x.bvh", folder_ / "x.trc"},
         {"reconstruct", folder_ / "x.trc", "--out", folder_ / "y.jsonl"},
@@ -92,8 +92,8 @@ TEST_F(ForeignSkeletons, WithoutKnownNamesAreRefusedInALineThatListsThem) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "y.jsonl"));
 }
 
-// It was 5 cm where a BVH was brought to the standard body.
-TEST_F(ForeignSkeletons, OfOneMotionInTwoFormatsAreTheSame) {
+// 5 cm when a BVH was retargeted to the standard body.
+TEST_F(ForeignSkeletons, OfOneMotionInTwoFormatsAreEqual) {
   const auto run = test::RunOssa({"compare", folder_ / "x.bvh", folder_ / "x.trc", "--mapping",
                                   folder_ / "names.txt", "--json", "-"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
@@ -102,7 +102,7 @@ TEST_F(ForeignSkeletons, OfOneMotionInTwoFormatsAreTheSame) {
   EXPECT_LT(result["mean_joint_error_cm"].get<double>(), 1e-4);
 }
 
-TEST_F(ForeignSkeletons, AreReconstructedWhereTheyAre) {
+TEST_F(ForeignSkeletons, KeepTheirPlaceWhenReconstructed) {
   const auto run =
       test::RunOssa({"reconstruct", folder_ / "x.trc", "--mapping", folder_ / "names.txt",
                      "--method", "none", "--out", folder_ / "y.jsonl", "--quiet"});
@@ -115,15 +115,15 @@ TEST_F(ForeignSkeletons, AreReconstructedWhereTheyAre) {
   }
 }
 
-TEST_F(ForeignSkeletons, AreLearnedOf) {
+TEST_F(ForeignSkeletons, AreReadByLearn) {
   const auto run = test::RunOssa({"learn", "--observed", folder_ / "x.trc", "--truth",
                                   folder_ / "x.bvh", "--mapping", folder_ / "names.txt", "--out",
                                   folder_ / "y.ossagp", "--correction-only", "--quiet"});
   EXPECT_EQ(run.exit_status, 0) << run.err;
 }
 
-// A file would be written that knows nothing.
-TEST_F(ForeignSkeletons, OfTooFewFramesNothingIsLearned) {
+// The learned file would be empty.
+TEST_F(ForeignSkeletons, WithTooFewFramesAreRefusedByLearn) {
   std::ofstream(folder_ / "x.trc") << FigureTrc(5);
   const auto run =
       test::RunOssa({"learn", "--observed", folder_ / "x.trc", "--truth", folder_ / "x.bvh",
@@ -133,7 +133,7 @@ TEST_F(ForeignSkeletons, OfTooFewFramesNothingIsLearned) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "y.ossagp"));
 }
 
-TEST_F(ForeignSkeletons, OfWhichSomethingIsOddAreSaidTo) {
+TEST_F(ForeignSkeletons, WithOddContentAreReadWithAWarning) {
   std::string text = recon::test::FigureBvh();
   text.replace(text.find("Frames: 30"), 10, "Frames: 75");
   std::ofstream(folder_ / "x.bvh") << text;
@@ -143,7 +143,7 @@ TEST_F(ForeignSkeletons, OfWhichSomethingIsOddAreSaidTo) {
   EXPECT_NE(run.err.find("the header says 75 frames, the file has 30"), std::string::npos);
 }
 
-TEST_F(ForeignSkeletons, OfABadLineInTheMappingAreRefusedByIt) {
+TEST_F(ForeignSkeletons, BadMappingLineIsReportedWithItsNumber) {
   std::ofstream(folder_ / "names.txt", std::ios::app) << "Spine = M99\n";
   const auto run = test::RunOssa(
       {"compare", folder_ / "x.bvh", folder_ / "x.trc", "--mapping", folder_ / "names.txt"});

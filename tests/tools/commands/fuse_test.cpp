@@ -1,4 +1,4 @@
-// `ossa fuse` from the outside: made-up people whom two cameras record.
+// `ossa fuse` as a process: synthetic people recorded by two cameras.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -48,7 +48,7 @@ class FuseCommand : public testing::Test {
     recon::WriteSkeletons(front_, recon::test::Record({.noise_m = 0.01}, one, 120));
     recon::WriteSkeletons(side_, recon::test::Record({FromTheSide(), 0.3, 0.01, 2}, one, 120));
   }
-  // What is said on stderr, after the expected exit status.
+  // The text on stderr; expects the exit status.
   std::string Said(std::vector<std::string> words, int exit_status) {
     words.insert(words.begin(), "fuse");
     const auto run = RunOssa(words);
@@ -60,7 +60,7 @@ class FuseCommand : public testing::Test {
   std::string out_ = folder_ / "both.jsonl", room_ = folder_ / "room.json";
 };
 
-TEST_F(FuseCommand, FindsTheCamerasSaysAndSavesThem) {
+TEST_F(FuseCommand, EstimatesPrintsAndSavesExtrinsics) {
   const auto run = RunOssa({"fuse", front_, side_, "--out", out_, "--save-extrinsics", room_});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   EXPECT_NE(run.out.find("side: 3.3"), std::string::npos) << run.out;
@@ -71,7 +71,7 @@ TEST_F(FuseCommand, FindsTheCamerasSaysAndSavesThem) {
   EXPECT_EQ(recon::ReadSkeletons(out_).frames.size(), 120u);
 }
 
-TEST_F(FuseCommand, TakesCamerasOfAFileByTheirNamesInAnyOrder) {
+TEST_F(FuseCommand, ReadsExtrinsicsByCameraNameInAnyOrder) {
   recon::WriteExtrinsics(room_, {{.name = "side"}, {"front", FromTheSide().inverse(), -0.3}});
   ASSERT_EQ(Said({front_, side_, "--extrinsics", room_, "--out", out_, "--quiet"}, 0), "");
   const auto fused = recon::ReadSkeletons(out_);
@@ -82,7 +82,7 @@ TEST_F(FuseCommand, TakesCamerasOfAFileByTheirNamesInAnyOrder) {
   }
 }
 
-TEST_F(FuseCommand, RefusesInOneLineWhatItCannotUse) {
+TEST_F(FuseCommand, ReportsUnusableInputInOneLine) {
   const std::string empty = folder_ / "empty.jsonl", nobody = folder_ / "nobody.jsonl";
   std::ofstream(empty).flush();
   std::ofstream(nobody) << R"({"frame":0,"time_s":0.0,"bodies":[]})"
@@ -114,7 +114,7 @@ TEST_F(FuseCommand, RefusesWrongUsage) {
   }
 }
 
-// One rendered person, seen by two cameras: what camera 0 does not see, the other does.
+// One rendered person, seen by two cameras from different sides.
 class TwoRenderedCameras : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -133,7 +133,7 @@ class TwoRenderedCameras : public testing::Test {
   static std::string Clip() { return *folder_ / "clip"; }
   static std::string Set(int camera) { return Clip() + "/camera_" + std::to_string(camera); }
   static std::string Room() { return Clip() + "/extrinsics.json"; }
-  // `ossa track` of the sources; where its skeletons are.
+  // Runs `ossa track` on the sources; returns the path of its skeletons.
   static std::string Tracked(const std::string& name, std::vector<std::string> words) {
     const std::string out = *folder_ / name;
     words.insert(words.begin(), "track");
@@ -145,7 +145,7 @@ class TwoRenderedCameras : public testing::Test {
   static inline std::optional<test::TemporaryFolder> folder_;
 };
 
-TEST_F(TwoRenderedCameras, KnowMoreThanTheFirst) {
+TEST_F(TwoRenderedCameras, FusedHaveASmallerErrorThanTheFirstAlone) {
   const std::string alone = Tracked("camera_0.jsonl", {Set(0)});
   const std::string other = Tracked("camera_1.jsonl", {Set(1)});
   const std::string out = *folder_ / "fused.jsonl";
@@ -153,25 +153,25 @@ TEST_F(TwoRenderedCameras, KnowMoreThanTheFirst) {
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto truth = recon::ReadSkeletons(Set(0) + "/truth.jsonl");
   EXPECT_LT(MeanError_m(truth, out), 0.95 * MeanError_m(truth, alone));
-  // Tracked at once they are the same, but for what the digits of the files leave out.
+  // Tracked together they are equal, but for the rounding of the files.
   const std::string at_once = Tracked("at_once.jsonl", {Set(0), Set(1), "--extrinsics", Room()});
   EXPECT_LT(MeanError_m(recon::ReadSkeletons(out), at_once), 1e-4);
 }
 
-TEST_F(TwoRenderedCameras, AreFoundWhileTheyAreTracked) {
+TEST_F(TwoRenderedCameras, ExtrinsicsAreEstimatedWhileTracking) {
   const std::string found = *folder_ / "found.json";
   Tracked("found.jsonl", {Set(0), Set(1), "--save-extrinsics", found});
   const auto camera = recon::ReadExtrinsics(found).at(1),
              truth = recon::ReadExtrinsics(Room()).at(1);
   const Eigen::Isometry3d off = camera.from_camera_0 * truth.from_camera_0.inverse();
-  // A second of somebody two metres away, in images of 320 pixels.
+  // One second of a person two metres away, in images 320 pixels wide.
   EXPECT_LT(off.translation().norm(), 0.3);
   EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 0.1);
   EXPECT_NEAR(camera.clock_offset_s, 0.0, 1.0 / 30);
 }
 
-// Nobody is in images of a wall: no cameras are found after the tracking, which stays.
-TEST(TrackOfSeveralSources, KeepsWhatEachCameraTrackedWhereItCannotBeFused) {
+// Images of a wall show nobody: extrinsics cannot be estimated, the tracked files stay.
+TEST(TrackOfSeveralSources, KeepsTheSkeletonsOfEachCameraWhereFusionFails) {
   const test::TemporaryFolder folder;
   for (const char* name : {"left", "right"}) {
     std::filesystem::create_directory(folder / name);
@@ -189,7 +189,7 @@ TEST(TrackOfSeveralSources, KeepsWhatEachCameraTrackedWhereItCannotBeFused) {
   }
 }
 
-TEST(TrackOfSeveralSources, RefusesWhatBelongsToOneAndDevices) {
+TEST(TrackOfSeveralSources, RefusesOptionsOfASingleSourceAndDevices) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"a", "b", "--out", "x.jsonl", "--view"}, "--view: expected one source with it"},
       {{"a", "b", "--out", "x.jsonl", "--scene", "s"}, "--scene: expected one source with it"},

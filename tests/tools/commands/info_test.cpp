@@ -1,4 +1,4 @@
-// `ossa info` knows every kind of file by its content and refuses the rest in one line.
+// `ossa info` recognises every kind of file by its content and refuses the rest in one line.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -34,7 +34,7 @@ void ExpectRefused(const std::filesystem::path& path, const std::string& why) {
   EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
 }
 
-TEST(Info, OfADeviceIsItsCamera) {
+TEST(InfoCommand, ShowsTheCameraOfADevice) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 3, 320, 240);
   const std::string device = "openni:ossa://" + folder.path().string();
@@ -45,8 +45,8 @@ TEST(Info, OfADeviceIsItsCamera) {
   EXPECT_NE(result.err.find("expected a recording, found a device"), std::string::npos);
 }
 
-// A body of one's own: its skin is told of with it, and worn by whoever is written.
-TEST(Surface, OfOnesOwnHasItsSkin) {
+// A custom body surface: `info` shows its mesh, and written people use that mesh.
+TEST(InfoCommand, ShowsTheSkinOfACustomBodySurface) {
   const TemporaryFolder folder;
   const auto shipped = test::SourceFolder() / "tools/tracker/shipped";
   recon::BodySurface surface = recon::BodySurface::Load(shipped / recon::kShippedSurface);
@@ -90,7 +90,7 @@ recon::PostureDatabase TwoPostures() {
   return recon::PostureDatabase::Build({clip}, {});
 }
 
-TEST(Ossa, SaysItsVersionAndRefusesUnknownCommands) {
+TEST(Ossa, PrintsItsVersionAndRefusesUnknownCommands) {
   const CommandResult version = RunOssa({"--version"});
   EXPECT_EQ(version.exit_status, 0);
   EXPECT_TRUE(version.out.starts_with("ossa ")) << version.out;
@@ -99,25 +99,25 @@ TEST(Ossa, SaysItsVersionAndRefusesUnknownCommands) {
   EXPECT_NE(unknown.err.find("unknown command 'jump'"), std::string::npos) << unknown.err;
 }
 
-TEST(InfoCommand, ShowsWhatAPostureDatabaseHolds) {
+TEST(InfoCommand, ShowsTheContentOfAPostureDatabase) {
   const TemporaryFolder folder;
   TwoPostures().Save(folder / "x.ossadb");
   ExpectShown(folder / "x.ossadb", "postures of 2 in 1 clips");
   ExpectShown(folder / "x.ossadb", "clip: two.bvh");
 }
 
-TEST(InfoCommand, ShowsWhatTheShippedPriorHolds) {
+TEST(InfoCommand, ShowsTheContentOfTheShippedPrior) {
   ExpectShown(test::SourceFolder() / "tools/tracker/shipped/posture.ossaprior",
               "posture prior, 40 modes learned from ");
 }
 
-TEST(InfoCommand, ShowsWhatAFolderOfDepthImagesHolds) {
+TEST(InfoCommand, ShowsTheContentOfAFolderOfDepthImages) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 3);
   ExpectShown(folder.path(), "depth images, 3 frames of ");
 }
 
-TEST(InfoCommand, ReadsDepthImagesAsItsOptionsSay) {
+TEST(InfoCommand, AppliesSourceOptionsToDepthImages) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 3, 160, 120);
   const auto show = [&](const std::vector<std::string>& options) {
@@ -132,14 +132,14 @@ TEST(InfoCommand, ReadsDepthImagesAsItsOptionsSay) {
   EXPECT_EQ(RunOssa({"info", folder.path().string(), "--depth-scale", "0"}).exit_status, 2);
 }
 
-TEST(InfoCommand, ShowsTheDepthTopicOfABagThatIsAskedFor) {
+TEST(InfoCommand, ShowsTheRequestedDepthTopicOfABag) {
   const TemporaryFolder folder;
   ExpectRefused(folder / "none.bag#/depth", "no such file");
   std::ofstream(folder / "x.bag") << "#ROSBAG V2.0\nthen nothing";
   ExpectRefused(folder.path().string() + "/x.bag#/depth", "#/depth: ");
 }
 
-TEST(InfoCommand, ShowsWhatASkeletonFileHolds) {
+TEST(InfoCommand, ShowsTheContentOfASkeletonFile) {
   const TemporaryFolder folder;
   std::ofstream(folder / "x.jsonl")
       << R"({"frame":0,"time_s":0,"bodies":[{"id":1,"joints":{"Head":{"p":[0,0,2]}}}]})"
@@ -149,7 +149,7 @@ TEST(InfoCommand, ShowsWhatASkeletonFileHolds) {
   ExpectShown(folder.path(), "skeletons x, 1 frames, 0.00 s, 1 bodies");
 }
 
-TEST(InfoCommand, ShowsBothSkeletonsOfAFileThatHoldsTwoSideBySide) {
+TEST(InfoCommand, ShowsBothSkeletonsOfAPairedFile) {
   const TemporaryFolder folder;
   const std::string file = folder / "two.csv";
   std::ofstream(file) << "t_s,K_head_x,K_head_y,K_head_z,G_head_x,G_head_y,G_head_z\n"
@@ -168,7 +168,7 @@ TEST(InfoCommand, ShowsBothSkeletonsOfAFileThatHoldsTwoSideBySide) {
                 "skeletons two#truth" + rest);
 }
 
-TEST(InfoCommand, RefusesJsonThatNestsDeepByItsFile) {
+TEST(InfoCommand, RefusesDeeplyNestedJsonByItsFileName) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 1);
   std::filesystem::create_directory(folder / "depth");
@@ -181,7 +181,7 @@ TEST(InfoCommand, RefusesJsonThatNestsDeepByItsFile) {
   ExpectRefused(folder.path(), "camera.json: expected JSON that nests at most 32 deep");
 }
 
-TEST(InfoCommand, RefusesWhatIsDamagedUnknownOrNotThere) {
+TEST(InfoCommand, RefusesDamagedUnknownAndMissingFiles) {
   const TemporaryFolder folder;
   TwoPostures().Save(folder / "cut.ossadb");
   std::filesystem::resize_file(folder / "cut.ossadb", 100);
@@ -200,7 +200,7 @@ std::string Bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Width and height as a PNG says them, big-endian after its signature and the header's name.
+// Width and height of a PNG: big-endian, after its signature and the name of the header chunk.
 std::pair<int, int> SizeOfPng(const std::string& png) {
   const auto number = [&](size_t at) {
     int value = 0;
@@ -210,7 +210,7 @@ std::pair<int, int> SizeOfPng(const std::string& png) {
   return {number(16), number(20)};
 }
 
-TEST(InfoPicture, OfDepthImagesIsASheetOfTwelve) {
+TEST(InfoPicture, OfDepthImagesIsAContactSheetOfTwelve) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 30);
   const auto sheet = folder / "sheet.png";
@@ -221,7 +221,7 @@ TEST(InfoPicture, OfDepthImagesIsASheetOfTwelve) {
   EXPECT_EQ(SizeOfPng(Bytes(sheet)), std::pair(4 * 240, 3 * 180));
 }
 
-TEST(InfoPicture, OfAModelIsItsCard) {
+TEST(InfoPicture, OfAModelIsItsModelCard) {
   const TemporaryFolder folder;
   const std::string model = (test::SourceFolder() / "tools/tracker/shipped/body.ossa").string();
   const auto card = folder / "card.html";
@@ -229,7 +229,7 @@ TEST(InfoPicture, OfAModelIsItsCard) {
   EXPECT_NE(Bytes(card).find("<title>Head front: 97.31</title>"), std::string::npos);
 }
 
-TEST(Info, OfAModelSaysWhatItHasLearnedBesidesItsTrees) {
+TEST(InfoCommand, ShowsWhatAModelHasLearnedBesidesItsTrees) {
   const std::string model = (test::SourceFolder() / "tools/tracker/shipped/body.ossa").string();
   EXPECT_NE(
       RunOssa({"info", model})

@@ -1,4 +1,4 @@
-// What was made stays: of runs that are interrupted, of disks that are full, of sources that fail.
+// Results so far are kept: of interrupted runs, on full disks, of sources that fail.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -36,8 +36,8 @@ void WriteLongFolder(const std::filesystem::path& folder) {
   }
 }
 
-// Of "27 of 5000 frames": 27; -1 when it says nothing of the kind. What is kept is said last, after
-// the progress.
+// Of "27 of 5000 frames": 27; -1 where there is no such text. The last one counts: it follows the
+// progress.
 long Kept(const CommandResult& result) {
   const std::regex words("([0-9]+) of " + std::to_string(kMany) + " frames");
   long kept = -1;
@@ -48,7 +48,7 @@ long Kept(const CommandResult& result) {
   return kept;
 }
 
-// Signals it as soon as it says that it works.
+// Sends the signal as soon as the command prints progress.
 CommandResult Interrupted(const std::vector<std::string>& arguments, int signal,
                           const std::string& says) {
   RunningCommand command = test::StartOssa(arguments);
@@ -68,7 +68,7 @@ long SkeletonsIn(const std::filesystem::path& path) {
   return static_cast<long>(recon::ReadSkeletons(path).frames.size());
 }
 
-TEST(KeptOutput, OfARecordingOfAFolderThatIsInterrupted) {
+TEST(KeptOutput, OfAnInterruptedRecordingHasAllFramesReadSoFar) {
   const TemporaryFolder folder;
   WriteLongFolder(folder / "in");
   const auto out = folder / "x.oni";
@@ -81,7 +81,7 @@ TEST(KeptOutput, OfARecordingOfAFolderThatIsInterrupted) {
 
 class InterruptedTrack : public testing::TestWithParam<const char*> {};
 
-TEST_P(InterruptedTrack, KeepsWhatThereIs) {
+TEST_P(InterruptedTrack, WritesTheFramesTrackedSoFar) {
   const TemporaryFolder folder;
   WriteLongFolder(folder / "in");
   const auto out = folder / (std::string("x") + GetParam());
@@ -96,9 +96,9 @@ TEST_P(InterruptedTrack, KeepsWhatThereIs) {
 INSTANTIATE_TEST_SUITE_P(KeptOutput, InterruptedTrack, testing::Values(".jsonl", ".csv", ".trc"),
                          [](const auto& info) { return std::string(info.param).substr(1); });
 
-// They show nobody, by whom it would be found where they are. Whoever interrupts is told so, not to
-// give --extrinsics.
-TEST(KeptOutput, OfTwoCamerasThatAreInterruptedNobodyKnowsWhere) {
+// Without people the extrinsics cannot be estimated. The message names the interruption, not
+// --extrinsics.
+TEST(KeptOutput, OfInterruptedCamerasWithoutPeopleIsReportedAsInterrupted) {
   const TemporaryFolder folder;
   WriteLongFolder(folder / "a");
   WriteLongFolder(folder / "b");
@@ -115,7 +115,7 @@ TEST(KeptOutput, OfTwoCamerasThatAreInterruptedNobodyKnowsWhere) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(KeptOutput, OfAReconstructionThatIsInterrupted) {
+TEST(KeptOutput, OfAnInterruptedReconstructionHasAllFramesWrittenSoFar) {
   const TemporaryFolder folder;
   recon::WriteSkeletons(folder / "in.jsonl", recon::ExampleSequence(kMany));
   const auto out = folder / "x.jsonl";
@@ -135,7 +135,7 @@ CommandResult OnAFullDisk(const std::vector<std::string>& arguments, int kilobyt
   return test::RunProgram(argv);
 }
 
-TEST(KeptOutput, OfATrackedFolderThatDoesNotFit) {
+TEST(KeptOutput, OfTrackOnAFullDiskHasCompleteFrames) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 200);
   const auto out = folder / "x.jsonl";
@@ -154,8 +154,8 @@ std::string TextOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Of each frame of nothing the trace is longer than the skeletons.
-TEST(KeptOutput, OfATraceThatDoesNotFitAreTheOtherFilesToo) {
+// The trace of an empty frame is longer than its skeletons: it fills the disk first.
+TEST(KeptOutput, OfTrackWhoseTraceFillsTheDiskHasTheOtherFiles) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "in");
   depth::DepthFrame nothing = test::ExampleFrame(0, 64, 48);
@@ -178,7 +178,7 @@ TEST(KeptOutput, OfATraceThatDoesNotFitAreTheOtherFilesToo) {
   EXPECT_TRUE(std::filesystem::exists(stats));
 }
 
-TEST(KeptOutput, OfAFakenectDumpThatDoesNotFit) {
+TEST(KeptOutput, OfAFakenectDumpOnAFullDiskHasCompleteFrames) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "in");
   depth::WriteDepthPng(folder / "in/0.png", test::ExampleFrame(0, 640, 480).view());
@@ -189,7 +189,7 @@ TEST(KeptOutput, OfAFakenectDumpThatDoesNotFit) {
   EXPECT_EQ(test::RunOssa(record).exit_status, 0);
 }
 
-TEST(KeptOutput, OfAReconstructionThatDoesNotFit) {
+TEST(KeptOutput, OfReconstructOnAFullDiskHasCompleteFrames) {
   const TemporaryFolder folder;
   recon::WriteSkeletons(folder / "in.jsonl", recon::ExampleSequence(50));
   const auto out = folder / "x.csv";
@@ -200,8 +200,8 @@ TEST(KeptOutput, OfAReconstructionThatDoesNotFit) {
       << result.err;
 }
 
-// A picture of this size is larger than the disk has room for; what else was asked for is not.
-TEST(KeptOutput, OfOneFileIsNotLostWithAnother) {
+// Only the picture is too large for the disk; the other outputs fit.
+TEST(KeptOutput, OfTrackWhosePictureFillsTheDiskHasTheOtherFiles) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "in");
   test::WriteExampleFolder(folder / "in", 1, 320, 240);
@@ -215,7 +215,7 @@ TEST(KeptOutput, OfOneFileIsNotLostWithAnother) {
   EXPECT_TRUE(std::filesystem::exists(stats));
 }
 
-TEST(KeptOutput, OfAReconstructionIsNotLostWithItsDynamics) {
+TEST(KeptOutput, OfReconstructWhoseDynamicsFillTheDiskHasTheSkeletons) {
   const TemporaryFolder folder;
   recon::WriteSkeletons(folder / "in.jsonl", recon::ExampleSequence(50));
   const auto out = folder / "x.jsonl";
@@ -226,7 +226,7 @@ TEST(KeptOutput, OfAReconstructionIsNotLostWithItsDynamics) {
   EXPECT_GE(SkeletonsIn(out), 1) << result.err;
 }
 
-TEST(KeptOutput, OfAComparisonArePrintedNumbersWhereTheirFileDoesNotFit) {
+TEST(KeptOutput, OfCompareOnAFullDiskIsThePrintedTable) {
   const TemporaryFolder folder;
   const std::string skeletons = folder / "in.jsonl";
   recon::WriteSkeletons(skeletons, recon::ExampleSequence(50));
@@ -236,8 +236,8 @@ TEST(KeptOutput, OfAComparisonArePrintedNumbersWhereTheirFileDoesNotFit) {
   EXPECT_NE(result.out.find("0.0"), std::string::npos) << result.err;
 }
 
-// A damaged frame of a cut recording ends the run: the frame before it is not lost with it.
-TEST(KeptOutput, OfASourceThatFailsInTheMiddle) {
+// A damaged frame of a truncated recording ends the run; the frame before it is kept.
+TEST(KeptOutput, OfASourceThatFailsHasTheFramesBeforeTheFailure) {
   const TemporaryFolder folder;
   depth::WriteDepthPng(folder / "a.png", test::ExampleFrame(0, 64, 48).view());
   depth::WriteDepthPng(folder / "b.png", test::ExampleFrame(1, 32, 24).view());
@@ -249,7 +249,7 @@ TEST(KeptOutput, OfASourceThatFailsInTheMiddle) {
   EXPECT_EQ(SkeletonsIn(out), 1);
 }
 
-TEST(KeptOutput, OfARecorderThatWasKilledIsReadWithAWarning) {
+TEST(KeptOutput, OfAKilledRecorderIsReadWithAWarning) {
   const TemporaryFolder folder;
   WriteLongFolder(folder / "in");
   const std::string out = (folder / "x.oni").string();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Manners of the command: help, suggestions, defaults, colours, completion, manual pages, doctor.
+"""Conventions of the command: help, suggestions, defaults, colours, completion, manual pages, doctor.
 
 Usage: manners_test.py OSSA MANUAL    (MANUAL: the folder that tools/manual/make_manual wrote)
 """
@@ -105,7 +105,7 @@ class Help(unittest.TestCase):
                 choices = options[word]["choices"]
                 self.assertTrue(not choices or value in choices, line)
 
-    def test_is_the_word_help_as_well(self):
+    def test_the_word_help_prints_help(self):
         self.assertEqual(run("help").stdout, run("--help").stdout)
         for name in ("track", "render"):  # render is in ossa-tools
             said = run("help", name)
@@ -119,14 +119,14 @@ class Help(unittest.TestCase):
 
 
 class Suggestions(unittest.TestCase):
-    def test_a_mistyped_command(self):
+    def test_name_the_closest_command(self):
         for typed, meant in {"trak": "track", "recrod": "record", "reconstuct": "reconstruct", "exp": "experiment"}.items():
             result = run(typed)
             self.assertEqual(result.returncode, 2)
             self.assertIn(f"unknown command '{typed}': is '{meant}' meant?\n", result.stderr)
         self.assertNotIn("meant", run("xylophone").stderr)
 
-    def test_a_mistyped_option(self):
+    def test_name_the_closest_option(self):
         for typed, meant in {"--metod": "--method", "--fsp=30": "--fps", "--smothing": "--smoothing"}.items():
             result = run("track", "x", typed, "y")
             self.assertEqual(result.returncode, 2)
@@ -134,7 +134,7 @@ class Suggestions(unittest.TestCase):
             self.assertEqual(result.stderr.count("\n"), 1)
         self.assertNotIn("meant", run("track", "x", "--xylophone").stderr)
 
-    def test_a_mistyped_option_that_is_required(self):
+    def test_name_the_closest_option_when_a_required_one_is_missing(self):
         said = run("record", "x", "--ot", "x.oni")
         self.assertEqual(said.returncode, 2)
         self.assertIn("--out is required, and --ot was not expected (is --out meant?", said.stderr)
@@ -142,7 +142,7 @@ class Suggestions(unittest.TestCase):
 
 
 class Colours(unittest.TestCase):
-    def test_only_on_a_terminal_that_wants_them(self):
+    def test_are_used_only_on_a_terminal_that_supports_them(self):
         self.assertIn("\x1b[", said_on_a_terminal(["nosuch"]))
         self.assertNotIn("\x1b[", said_on_a_terminal(["nosuch"], NO_COLOR="1"))
         self.assertNotIn("\x1b[", said_on_a_terminal(["nosuch"], TERM="dumb"))
@@ -150,19 +150,19 @@ class Colours(unittest.TestCase):
 
 
 class TimeLeft(unittest.TestCase):
-    def test_is_said_while_work_goes_on(self):
+    def test_is_printed_during_work(self):
         with tempfile.TemporaryDirectory() as folder:
             said = said_on_a_terminal(["database", *["--mocap", "authored"] * 5, "--out", folder + "/a.ossadb"],
                                       paused_s=0.8)
         self.assertRegex(said, r"\d:\d\d left")
 
-    def test_info_and_compare_say_how_far_they_are(self):
+    def test_is_printed_by_info_and_compare(self):
         truth = str(CLIP / "truth.jsonl")
         self.assertRegex(said_on_a_terminal(["info", str(CLIP / "depth")]), r"reading \[#{30}\] 100 %")
         self.assertRegex(said_on_a_terminal(["compare", truth, truth]), r"comparing \[\.{30}\]   0 %")
         self.assertNotIn("reading", run("info", CLIP / "depth").stderr)
 
-    def test_is_said_while_skeletons_are_read(self):
+    def test_is_printed_while_skeletons_are_read(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             frames = [json.loads(line) for line in (CLIP / "truth.jsonl").read_text().splitlines()]
@@ -178,12 +178,12 @@ class TimeLeft(unittest.TestCase):
                                "--correction-only", "--pairs", 20, "--out", folder / "x.ossagp"]):
                 self.assertRegex(said_slowly(arguments, until="reading"), r"reading \[#*\.*\] +\d+ % (\d:\d\d left)?", arguments)
 
-    def test_is_said_while_view_tracks_a_recording(self):
+    def test_is_printed_while_view_tracks_a_recording(self):
         said = said_slowly(["view", CLIP / "depth", "--port", 0], until="100 %")
         self.assertRegex(said, r"tracking \[#+\.+\] +\d+ % (\d:\d\d left)?")
         self.assertRegex(said, r"tracking \[#{30}\] 100 %")
 
-    def test_is_said_while_a_picture_is_made(self):
+    def test_is_printed_while_a_picture_is_drawn(self):
         with tempfile.TemporaryDirectory() as folder:
             said = said_slowly(["info", CLIP / "depth", "--picture", folder + "/x.png"])
         self.assertRegex(said, r"looking \[#{30}\] 100 %")
@@ -210,14 +210,14 @@ class Defaults(unittest.TestCase):
                                 capture_output=True, text=True, env=environment, timeout=120)
         return result, out.read_bytes() if result.returncode == 0 else None
 
-    def test_say_what_the_command_line_leaves_open(self):
+    def test_fill_options_missing_on_the_command_line(self):
         best, none = self.track("")[1], self.track("", "--method", "none")[1]
         self.assertNotEqual(best, none)
         self.assertEqual(self.track("# mine\n[track]\nmethod = \"none\"  # fast\nusers = 2\n")[1], none)
         self.assertEqual(self.track("[track]\nmethod = 'none'\n", "--method", "best")[1], best)
         self.assertEqual(self.track("[view]\nmethod = \"none\"\n")[1], best)
 
-    def test_are_refused_by_name_and_line(self):
+    def test_are_refused_by_file_name_and_line(self):
         for config, line, named in (("[track]\n\nmetod = \"none\"\n", 3, "found 'metod' (is 'method' meant?)"),
                                     ("[trak]\nmethod = \"none\"\n", 1, "found 'trak'"),
                                     ("method = \"none\"\n", 1, "[COMMAND]"),
@@ -234,7 +234,7 @@ class Defaults(unittest.TestCase):
             self.assertIn(named, result.stderr, config)
             self.assertEqual(result.stderr.count("\n"), 1, config)
 
-    def test_are_not_read_where_a_script_says_so(self):
+    def test_are_ignored_when_a_script_disables_them(self):
         self.file.write_text("[track]\nmetod = 1\n")
         result = run("track", CLIP, "--frames", 1, "--quiet", "--out", self.folder / "a.jsonl",
                      XDG_CONFIG_HOME=str(self.folder))
@@ -250,7 +250,7 @@ class Completion(unittest.TestCase):
         return subprocess.run(["bash", "-c", script, "bash", *words], capture_output=True, text=True,
                               check=True).stdout.split()
 
-    def test_in_bash(self):
+    def test_works_in_bash(self):
         self.assertEqual(set(self.in_bash("ossa", "")), {*commands(), "help", "--help", "--version"})
         self.assertEqual(self.in_bash("ossa", "help", "tra"), ["track", "train"])
         self.assertEqual(self.in_bash("ossa", "track", "--meth"), ["--method"])
@@ -260,7 +260,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.in_bash("ossa", "track", "clip"), [])  # files, as readline knows them
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
-    def test_in_fish(self):
+    def test_works_in_fish(self):
         def complete(line):
             said = subprocess.run(["fish", "--no-config", "-c", f"source {MANUAL}/fish/ossa.fish; complete -C '{line}'"],
                                   capture_output=True, text=True, check=True, env={**os.environ, "HOME": "/nonexistent"})
@@ -271,7 +271,7 @@ class Completion(unittest.TestCase):
         self.assertIn("--method", complete("ossa track --me"))
 
     @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
-    def test_in_zsh(self):
+    def test_works_in_zsh(self):
         """The completion system's own words for what it offers, by a stand-in of _arguments and _describe."""
         script = f"""_describe() {{ print -l $commands }}; _arguments() {{ print -l -- $@ }}
             ossa_completion() {{ {(MANUAL / 'zsh' / '_ossa').read_text()} }}
@@ -294,7 +294,7 @@ class ManualPages(unittest.TestCase):
         for word in (*commands(), "NO_COLOR", "config.toml"):
             self.assertIn(word, page)
 
-    def test_say_what_is_required_and_what_is_so_otherwise(self):
+    def test_state_required_options_and_defaults(self):
         def text(name):
             page = gzip.decompress((MANUAL / "man" / "man1" / f"ossa-{name}.1.gz").read_bytes()).decode()
             return page.replace("\\-", "-").replace("\\fI", "").replace("\\fB", "").replace("\\fR", "")
@@ -344,7 +344,7 @@ class Start(unittest.TestCase):
         self.assertEqual(result.stderr, "")
         return out.read_bytes()
 
-    def test_is_quick_and_small_with_them_and_the_same(self):
+    def test_with_kept_tables_is_fast_and_gives_the_same_results(self):
         made, first = self.track(""), self.track("", 1)
         self.assertFalse(self.cache.exists())
         self.assertEqual(self.track(str(self.cache)), made)
@@ -364,13 +364,13 @@ class Start(unittest.TestCase):
         self.assertEqual(status, 0)
         return used
 
-    def test_looks_at_a_still_before_all_tables_are_there(self):
+    def test_tracks_a_still_before_all_tables_are_built(self):
         used = self.start()
         self.assertEqual(list(self.cache.glob("*")), [])
         self.assertLess(used.ru_maxrss, 165 * 1024)
         self.assertLess(processor_s(used), 0.8 * processor_s(self.start(frames=12)))  # which makes them; 0.4 measured
 
-    def test_does_not_take_damaged_ones(self):
+    def test_ignores_damaged_tables(self):
         made = self.track(str(self.cache))
         tables, = self.cache.glob("*.tables")
         head, = self.cache.glob("*.head")
@@ -384,7 +384,7 @@ class Start(unittest.TestCase):
         tables.write_bytes(tables.read_bytes()[:-64])
         self.assertEqual(self.track(str(self.cache)), made)
 
-    def test_does_without_where_they_cannot_be_kept(self):
+    def test_works_where_tables_cannot_be_stored(self):
         self.cache.write_text("a file, no folder")
         self.track(str(self.cache / "below"))
 
@@ -411,7 +411,7 @@ class Doctor(unittest.TestCase):
         interface.mkdir()
         (interface / "driver").symlink_to("../../../../bus/usb/drivers/" + driver)
 
-    def test_finds_nothing_wrong_with_a_camera_that_works(self):
+    def test_reports_no_problem_for_a_working_camera(self):
         self.plug_in("1-1", "045e:02ae", 7)
         self.plug_in("1-2", "1d6b:0002", 8)  # a hub of the machine's own
         result = run("doctor", "--root", self.root)
@@ -420,7 +420,7 @@ class Doctor(unittest.TestCase):
         self.assertIn("ok libossa_virtual.so.0", result.stdout)
         self.assertEqual(run("doctor", "--root", self.root, "--quiet").stdout, "")
 
-    def test_says_what_is_in_the_way(self):
+    def test_reports_obstacles(self):
         self.plug_in("1-1", "045e:02ae", 7)
         self.hold("1-1", "gspca_kinect")
         self.plug_in("1-3", "1d27:0601", 9, node=False)
@@ -432,26 +432,26 @@ class Doctor(unittest.TestCase):
         self.assertIn("!! RealSense D435 (8086:0b07)", result.stdout)
 
     @unittest.skipIf(os.getuid() == 0, "root may open everything")
-    def test_says_whose_rights_are_missing(self):
+    def test_reports_missing_permissions(self):
         self.plug_in("1-1", "1d27:0601", 7)
         (self.root / "dev/bus/usb/001/007").chmod(0)
         result = run("doctor", "--root", self.root)
         self.assertEqual(result.returncode, 1)
         self.assertIn("usermod -aG video", result.stdout)
 
-    def test_knows_a_kinect_without_its_power_supply(self):
+    def test_recognises_a_kinect_without_power_supply(self):
         self.plug_in("1-1", "045e:02b0", 7)
         result = run("doctor", "--root", self.root)
         self.assertEqual(result.returncode, 1)
         self.assertIn("plug in its power supply", result.stdout)
 
-    def test_says_where_models_were_looked_for(self):
+    def test_reports_where_models_were_searched(self):
         (self.root / "body.ossa").write_text("no model")
         result = run("doctor", "--root", self.root, "--quiet", OSSA_SHARE=str(self.root))
         self.assertEqual(result.returncode, 1)
         self.assertIn(f"!! {self.root}/body.ossa", result.stdout)
 
-    def test_reads_also_what_a_run_reads_only_later(self):
+    def test_reads_files_that_a_run_reads_late(self):
         shipped = pathlib.Path(run("doctor", "--root", self.root).stdout.splitlines()[-1].split(" in ")[1])
         for name in ["body_ceiling.ossa", "body_ceiling.ossarefine", "authored.ossadb", "kinect_v2.ossagp", "body.ossamesh"]:
             cut = self.root / name

@@ -1,4 +1,4 @@
-// --mapping: mocap whose joints have names of their own, for every command that reads mocap.
+// --mapping: mocap with custom joint names, for every command that reads mocap.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,7 +19,7 @@ namespace {
 
 using test::RunOssa;
 
-// Bones of the body and the joints of bvh_texts.h, as a user would write them down.
+// Bones of the body and the joints of bvh_texts.h, as a user would write them.
 constexpr std::array<std::pair<const char*, const char*>, 17> kBones = {
     {{"Hips", "hip"},
      {"LowerBack", "abdomen"},
@@ -79,7 +79,7 @@ class MappingOption : public testing::TestWithParam<Use> {
   test::TemporaryFolder folder_;
 };
 
-TEST_P(MappingOption, ReadsWhatHasNamesOfItsOwn) {
+TEST_P(MappingOption, ReadsSkeletonsWithCustomJointNames) {
   const auto without = Run({});
   EXPECT_EQ(without.exit_status, 1);
   EXPECT_NE(without.err.find("expected a mapping file"), std::string::npos) << without.err;
@@ -87,7 +87,7 @@ TEST_P(MappingOption, ReadsWhatHasNamesOfItsOwn) {
   EXPECT_EQ(with.exit_status, 0) << with.err;
 }
 
-TEST_P(MappingOption, IsRefusedByItsLine) {
+TEST_P(MappingOption, ReportsABadLineByItsNumber) {
   std::ofstream(folder_ / "names.txt") << "Hips = hip\nLeftElbow = Elle\n";
   const auto run = Run({"--mapping", folder_ / "names.txt"});
   EXPECT_EQ(run.exit_status, 1);
@@ -95,7 +95,7 @@ TEST_P(MappingOption, IsRefusedByItsLine) {
   EXPECT_NE(run.err.find("names.txt: line 2: expected a bone"), std::string::npos) << run.err;
 }
 
-TEST_P(MappingOption, HelpSaysHowItIsWritten) {
+TEST_P(MappingOption, HelpDescribesItsSyntax) {
   const std::string help = RunOssa({GetParam().command, "--help"}).out;
   for (const auto& [bone, joint] : kBones) {
     std::string name = bone;
@@ -114,8 +114,8 @@ INSTANTIATE_TEST_SUITE_P(Of, MappingOption,
                                          Use{"render", {"--frames", "1", "--size", "64x48"}}),
                          [](const auto& info) { return std::string(info.param.command); });
 
-// Frames that another mapping made are not gone on with.
-TEST(RenderCommand, GoesOnWithTheSameMappingOnly) {
+// Frames rendered with another mapping are not continued.
+TEST(RenderCommand, ResumesWithTheSameMappingOnly) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   std::string text = recon::TPoseHierarchy() + "MOTION\nFrames: 1\nFrame Time: 0.0333333\n";

@@ -1,5 +1,5 @@
-// `ossa crop`, the trainer of pose networks and `ossa pack-network` from the outside: what one
-// writes the next one reads, and track has the network's say in its joints.
+// `ossa crop`, the trainer of pose networks and `ossa pack-network` as processes: each reads what
+// the one before wrote, and track fuses the prediction of the network into its joints.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ class PoseNetworkCommands : public ::testing::Test {
   const test::TemporaryFolder folder_;
 };
 
-TEST_F(PoseNetworkCommands, CropsShowPeopleWithTheirJointsInThem) {
+TEST_F(PoseNetworkCommands, CropsContainThePersonAndTheirJoints) {
   const std::string crops = Crops(40);
   const std::string bytes = TextOf(crops + "/crops.npy");
   EXPECT_EQ(bytes.size(), kNumpyHead + 40 * 2 * kCropCells);
@@ -108,7 +108,7 @@ TEST_F(PoseNetworkCommands, CropsShowPeopleWithTheirJointsInThem) {
   EXPECT_GT(on_surface, 9 * heads / 10);
 }
 
-TEST_F(PoseNetworkCommands, WhatTheTrainerWritesRunsAsThere) {
+TEST_F(PoseNetworkCommands, PackedNetworkGivesTheOutputsOfTheTrainer) {
   if (!HasTorch()) GTEST_SKIP() << "no PyTorch: python3-torch";
   const std::string crops = Crops(120), weights = folder_ / "w.npy", kept = folder_ / "w.pt";
   const std::string trainer = test::SourceFolder() / "tools/learning/train_pose_network.py";
@@ -122,7 +122,7 @@ TEST_F(PoseNetworkCommands, WhatTheTrainerWritesRunsAsThere) {
   run = RunOssa({"info", net});
   EXPECT_NE(run.out.find("pose network of 13 layers and "), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("learned from 120 people"), std::string::npos) << run.out;
-  // The same person, by PyTorch: where the crop has the joints and how far off they may be.
+  // The same person, by PyTorch: position of the joints in the crop and their standard deviation.
   const std::string script = fmt::format(
       "import sys; sys.path.insert(0, '{}')\n"
       "import numpy, torch, train_pose_network as t\n"
@@ -148,8 +148,8 @@ TEST_F(PoseNetworkCommands, WhatTheTrainerWritesRunsAsThere) {
   }
 }
 
-// At its first save or evaluation, and as a traceback.
-TEST_F(PoseNetworkCommands, TheTrainerTellsAtOnceWhatItCannotWriteOrJudge) {
+// It was reported at the first save or evaluation, as a traceback.
+TEST_F(PoseNetworkCommands, TrainerReportsUnusableOutputAndValidationPathsAtStart) {
   if (!HasTorch()) GTEST_SKIP() << "no PyTorch: python3-torch";
   const std::string crops = Crops(3), nobody = folder_ / "nobody";
   std::filesystem::copy(crops, nobody);
@@ -175,12 +175,12 @@ TEST_F(PoseNetworkCommands, TheTrainerTellsAtOnceWhatItCannotWriteOrJudge) {
          "nobody: expected people");
 }
 
-TEST_F(PoseNetworkCommands, ItsSayIsInTheRefinedJoints) {
+TEST_F(PoseNetworkCommands, PredictionIsFusedIntoTheRefinedJoints) {
   const std::string clip = folder_ / "clip", net = folder_ / "up.ossanet";
   auto run = RunOssa({"render", "--mocap", "authored", "--out", clip, "--frames", "3", "--sequence",
                       "--view", "front", "--size", "160x120", "--quiet"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
-  // Sure that every joint is 2 m above the middle.
+  // Predicts with high certainty that every joint is 2 m above the centre.
   auto layers = recon::test::SilentLayers();
   for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(kJointCount); ++j) {
     layers.back().bias.segment<5>(5 * j) << 0.0F, 0.0F, 10.0F, 0.0F, -5.0F;
@@ -213,7 +213,7 @@ TEST_F(PoseNetworkCommands, ItsSayIsInTheRefinedJoints) {
   EXPECT_NE(none.err.find("no.ossanet"), std::string::npos) << none.err;
 }
 
-TEST(PackNetworkCommand, RefusesWhatIsNoWeightsInOneLine) {
+TEST(PackNetworkCommand, RefusesFilesWithoutWeightsInOneLine) {
   const test::TemporaryFolder folder;
   const std::string weights = folder / "w.npy", out = folder / "x.ossanet";
   const auto refuse = [&](const std::string& text, const std::string& named) {

@@ -1,4 +1,4 @@
-// `ossa prior` from the outside: a prior that its reader takes, and wrong usage.
+// `ossa prior` as a process: it writes a readable prior; wrong usage.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 using test::RunOssa;
 
-TEST(PriorCommand, LearnsAPriorOfTheModesAskedForThatInfoShows) {
+TEST(PriorCommand, LearnsTheRequestedNumberOfModesAndInfoShowsIt) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "x.ossaprior";
   const auto run = RunOssa({"prior", "--mocap", "authored", "--modes", "12", "--hidden", "8",
@@ -34,9 +34,9 @@ TEST(PriorCommand, LearnsAPriorOfTheModesAskedForThatInfoShows) {
   EXPECT_NE(info.out.find(", 8 units "), std::string::npos) << info.out;
 }
 
-// Frames on the floor counted as captured ones. Where all are authored, no weight tells them apart;
-// 0.5, a power of two, rounds nothing.
-TEST(PriorCommand, AnAuthoredWeightIsOfMotionOnTheFloorToo) {
+// Authored frames on the floor were weighted as captured ones. Where all frames are authored, the
+// weight has no effect; 0.5, a power of two, is exact.
+TEST(PriorCommand, AuthoredWeightAppliesToFloorMotionToo) {
   const test::TemporaryFolder folder;
   std::vector<std::string> bytes;
   for (const char* weight : {"0.5", "1"}) {
@@ -51,7 +51,7 @@ TEST(PriorCommand, AnAuthoredWeightIsOfMotionOnTheFloorToo) {
   EXPECT_EQ(bytes.at(0), bytes.at(1));
 }
 
-// Thirty frames of somebody at rest, of whose left arm no more is seen after ten.
+// Thirty frames of a person at rest, whose left arm is hidden after ten.
 std::string LosingAnArm() {
   std::string lines;
   for (int i = 0; i < 30; ++i) {
@@ -73,7 +73,7 @@ std::string LosingAnArm() {
   return lines;
 }
 
-TEST(PriorCommand, AnotherPriorIsUsedWhereItIsNamed) {
+TEST(PriorCommand, TrackUsesTheNamedPrior) {
   const test::TemporaryFolder folder;
   const std::string prior = folder / "x.ossaprior", in = folder / "in.jsonl";
   std::ofstream(in) << LosingAnArm();
@@ -102,13 +102,13 @@ TEST(PriorCommand, AnotherPriorIsUsedWhereItIsNamed) {
   EXPECT_THROW(tracker::ModelSet::Load(files), InputError);
 }
 
-TEST(PriorCommand, SaysWhatIsWrongInOneLine) {
+TEST(PriorCommand, ReportsErrorsInOneLine) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "x.ossaprior";
   EXPECT_EQ(RunOssa({"prior", "--out", out}).exit_status, 2);
   EXPECT_EQ(RunOssa({"prior", "--mocap", "authored", "--modes", "58", "--out", out}).exit_status,
             2);
-  // As many walks through each motion are no number of walks.
+  // Not a number of passes over each motion.
   EXPECT_EQ(RunOssa({"prior", "--mocap", "authored", "--authored-weight", "1e12", "--hidden", "0",
                      "--out", out})
                 .exit_status,
@@ -120,7 +120,7 @@ TEST(PriorCommand, SaysWhatIsWrongInOneLine) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-// tools/train_prior of these clips: the arguments with which it calls the command, one a line.
+// tools/train_prior of these clips: the arguments of the command that it calls, one a line.
 test::CommandResult TrainPrior(const std::vector<std::string>& clips) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "mocap");
@@ -131,14 +131,14 @@ test::CommandResult TrainPrior(const std::vector<std::string>& clips) {
                            folder / "x.ossaprior", folder / "ossa"});
 }
 
-TEST(TrainPrior, LeavesOutSubjectsThatValidateOrTest) {
+TEST(TrainPrior, LeavesOutValidationAndTestSubjects) {
   const auto run = TrainPrior({"01_01.bvh", "02_01.bvh", "03_02.bvh", "07_01.bvh", "09_01.bvh",
                                "10_03.bvh", "12_01.bvh", "60_15.bvh", "102_01.bvh"});
   EXPECT_EQ(run.exit_status, 0) << run.err;
   for (const char* learned : {"authored", "/01_01.bvh", "/10_03.bvh", "/102_01.bvh"}) {
     EXPECT_NE(run.out.find(learned), std::string::npos) << learned << "\n" << run.out;
   }
-  // Nor the folder, in which they lie, as a whole.
+  // Nor is the folder that contains them passed as a whole.
   for (const char* kept : {"/02_", "/03_", "/07_", "/09_", "/12_", "/60_", "/mocap\n"}) {
     EXPECT_EQ(run.out.find(kept), std::string::npos) << kept << "\n" << run.out;
   }

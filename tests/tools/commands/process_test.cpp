@@ -1,4 +1,4 @@
-// What a shell, a full disk and an impatient user do to every command.
+// Closed streams, full disks, signals and limits, for every command.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -27,7 +27,7 @@ std::string Bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Streams, WhatIsPrintedNeverEndsInAFileThatWasOpenedLater) {
+TEST(Streams, ClosedStandardStreamsNeverReceiveOutputOfOtherFiles) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 5);
   const std::string track = R"("$1" track "$2" --method none --out "$2/)";
@@ -39,7 +39,7 @@ TEST(Streams, WhatIsPrintedNeverEndsInAFileThatWasOpenedLater) {
   EXPECT_EQ(Bytes(folder / "a.jsonl"), Bytes(folder / "c.jsonl"));
 }
 
-TEST(Streams, WhatCannotBePrintedIsAFailure) {
+TEST(Streams, FailedPrintingIsAFailure) {
   const TemporaryFolder folder;
   for (const char* words : {"--help", "--version", "track --help"}) {
     const CommandResult result = Shell(std::string("\"$1\" ") + words + " > /dev/full", folder);
@@ -48,7 +48,7 @@ TEST(Streams, WhatCannotBePrintedIsAFailure) {
   }
 }
 
-TEST(Streams, AReaderThatHasEnoughEndsItQuietly) {
+TEST(Streams, ClosedPipeEndsTheCommandSilently) {
   const TemporaryFolder folder;
   const CommandResult result =
       Shell("(\"$1\" experiment --help; echo $? >&2) | sleep 0; true", folder);
@@ -56,14 +56,14 @@ TEST(Streams, AReaderThatHasEnoughEndsItQuietly) {
   EXPECT_TRUE(result.err == "141\n" || result.err == "0\n") << result.err;
 }
 
-TEST(Streams, AnErrorStreamThatIsFullEndsNoWork) {
+TEST(Streams, FullErrorStreamDoesNotStopTheCommand) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 3);
   EXPECT_EQ(Shell(R"("$1" record "$2" --out "$2/x.oni" 2> /dev/full)", folder).exit_status, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "x.oni"));
 }
 
-TEST(Files, ThatMayGrowNoMoreAreOneLineAndNothingIsLeft) {
+TEST(Files, FileSizeLimitIsReportedInOneLineAndNothingIsLeft) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 40);
   const CommandResult result =
@@ -76,7 +76,7 @@ TEST(Files, ThatMayGrowNoMoreAreOneLineAndNothingIsLeft) {
   }
 }
 
-TEST(Memory, ThatIsUsedUpIsOneLine) {
+TEST(Memory, ExhaustionIsReportedInOneLine) {
   if (test::kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
   const TemporaryFolder folder;
   const CommandResult result =
@@ -87,7 +87,7 @@ TEST(Memory, ThatIsUsedUpIsOneLine) {
   EXPECT_FALSE(std::filesystem::exists(folder / "x.ossadb"));
 }
 
-TEST(Memory, ThatAFileUsesUpNamesTheFile) {
+TEST(Memory, ExhaustionByAFileNamesTheFile) {
   if (test::kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
   const TemporaryFolder folder;
   const CommandResult result =
@@ -99,7 +99,7 @@ TEST(Memory, ThatAFileUsesUpNamesTheFile) {
   EXPECT_EQ(result.err, "ossa: " + file + ": out of memory: expected a file that fits into it\n");
 }
 
-TEST(Memory, ThatMotionUsesUpNamesTheFile) {
+TEST(Memory, ExhaustionByMotionNamesTheFile) {
   if (test::kSanitized) GTEST_SKIP() << "the shadow of its memory alone takes more";
   const TemporaryFolder folder;
   const CommandResult result = Shell(R"(echo HIERARCHY > "$2/x.bvh"; truncate -s 1G "$2/x.bvh"
@@ -110,20 +110,20 @@ TEST(Memory, ThatMotionUsesUpNamesTheFile) {
   EXPECT_EQ(result.err, "ossa: " + file + ": out of memory: expected a file that fits into it\n");
 }
 
-// The first is noted, and as good as lost on who does not ask; one right behind it, as timeout(1)
-// sends, is the same; the next ends it.
-TEST(Interrupt, ASecondOneEndsWhatDoesNotListen) {
+// The first signal sets a flag, which a command checks between steps; one right after it, as
+// timeout(1) sends, counts as the same; the next one ends the process.
+TEST(Interrupt, SecondOneEndsACommandThatDoesNotReactToTheFirst) {
   const TemporaryFolder folder;
   const CommandResult deaf = Shell(
       R"("$1" database --mocap authored --mocap authored --mocap authored --out "$2/x" --quiet &
          sleep 0.3; kill -INT $!; kill -INT $!; sleep 0.8; kill -INT $!; wait $!; echo $?)",
       folder);
-  // Where the machine is quick the first has been listened to meanwhile.
+  // On a fast machine the command has reacted to the first one.
   EXPECT_TRUE(deaf.out == "130\n" || deaf.out == "1\n") << deaf.out << deaf.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "x"));
 }
 
-TEST(Interrupt, ATerminalThatGoesAwayEndsARecordingWithAWholeFile) {
+TEST(Interrupt, ClosedTerminalEndsARecordingWithACompleteFile) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 10);
   const std::string out = (folder / "x.oni").string();
@@ -135,8 +135,9 @@ TEST(Interrupt, ATerminalThatGoesAwayEndsARecordingWithAWholeFile) {
   EXPECT_TRUE(std::filesystem::exists(out));
 }
 
-// What is told by its content, or by the option, may be called anything: these miss their inputs.
-TEST(AnyName, IsGoodForOutputsOfOneFormat) {
+// Outputs whose format is fixed by the option may have any name: these commands fail on their
+// inputs only.
+TEST(OutputName, IsFreeForOutputsOfOneFormat) {
   const TemporaryFolder folder;
   for (const char* words :
        {"learn --observed a --truth b --out x", "prior --mocap a --out x.bin", "refine a --out x",
@@ -149,8 +150,8 @@ TEST(AnyName, IsGoodForOutputsOfOneFormat) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-// Wrong usage is 2 and said before anything is opened or written.
-TEST(WrongUsage, OfOutputs) {
+// Wrong usage exits with 2 before any file is opened or written.
+TEST(WrongUsage, OfOutputsExitsWithTwo) {
   const TemporaryFolder folder;
   std::ofstream(folder / "in.jsonl") << "precious";
   std::filesystem::create_symlink("in.jsonl", folder / "same");
@@ -182,7 +183,7 @@ TEST(WrongUsage, OfOutputs) {
   EXPECT_EQ(Bytes(folder / "in.jsonl"), "precious");
 }
 
-TEST(WrongUsage, OfOptions) {
+TEST(WrongUsage, OfOptionsExitsWithTwo) {
   const TemporaryFolder folder;
   for (const char* words :
        {"learn --observed a --truth b --out x.ossagp --regions 1000000000",
@@ -202,7 +203,7 @@ TEST(WrongUsage, OfOptions) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Render, OneAtATimeInAFolder) {
+TEST(RenderCommand, RefusesAFolderThatAnotherProcessWrites) {
   const TemporaryFolder folder;
   const FolderLock other(folder / "set");
   const CommandResult result =

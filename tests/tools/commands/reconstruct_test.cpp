@@ -78,7 +78,8 @@ double MeanDistance(const recon::SkeletonSequence& a, const recon::SkeletonSeque
   return sum / static_cast<double>(a.frames.size() * kJointCount);
 }
 
-/// How far the forearm's x axis, the hinge's, strays in the upper arm from where it was, radians.
+/// Largest angle, radians, between the hinge axis (the forearm's x) and its first direction, both
+/// relative to the upper arm.
 double ElbowAxisWander(const recon::SkeletonSequence& sequence) {
   double worst = 0.0;
   std::optional<Eigen::Vector3d> first;
@@ -107,7 +108,7 @@ void WriteKinectV2(const std::string& path, const recon::SkeletonSequence& seque
   }
 }
 
-TEST_F(ReconstructCommand, TakesOffAKinectsKnownErrorsAndSaysSo) {
+TEST_F(ReconstructCommand, CorrectsKnownErrorsOfAKinectAndReportsIt) {
   const std::string in = folder_ / "kinect.csv", out = folder_ / "out.jsonl";
   WriteKinectV2(in, Recording());
   const auto corrected = RunOssa({"reconstruct", in, "--out", out});
@@ -123,7 +124,7 @@ TEST_F(ReconstructCommand, TakesOffAKinectsKnownErrorsAndSaysSo) {
   EXPECT_LT(BoneDrift(with), 0.001);
 }
 
-TEST_F(ReconstructCommand, TakesOffWhatACloseLookLeavesAndSaysSo) {
+TEST_F(ReconstructCommand, CorrectsKnownErrorsOfRefinedJointsAndReportsIt) {
   const std::string in = folder_ / "looked.jsonl", out = folder_ / "out.jsonl";
   auto looked = Recording();
   for (auto& frame : looked.frames) frame.bodies[0].bones_m = recon::StandardBoneLengths();
@@ -133,17 +134,18 @@ TEST_F(ReconstructCommand, TakesOffWhatACloseLookLeavesAndSaysSo) {
   ASSERT_EQ(corrected.exit_status, 0) << corrected.err;
   EXPECT_NE(corrected.err.find("body.ossagp"), std::string::npos) << corrected.err;
   const auto with = recon::ReadSkeletons(out);
-  EXPECT_EQ(with.sensor, "");  // what comes out is no longer what a look said
+  EXPECT_EQ(with.sensor, "");  // the output is no longer of a refinement
   const auto left = RunOssa({"reconstruct", in, "--out", out, "--learned", "none"});
   ASSERT_EQ(left.exit_status, 0) << left.err;
   EXPECT_EQ(left.err.find("body.ossagp"), std::string::npos) << left.err;
   const double moved_m = MeanDistance(with, recon::ReadSkeletons(out));
-  EXPECT_GT(moved_m, 1e-4);  // a look is right in the mean but for millimetres
+  EXPECT_GT(moved_m, 1e-4);  // the mean error of refined joints is millimetres
   EXPECT_LT(moved_m, 0.05);
 }
 
-// A guess of a look is the mean of what may be; one of a sensor is where what hides the joint is.
-TEST_F(ReconstructCommand, TrustsGuessesOfACloseLookMore) {
+// An inferred joint of a refinement is the mean of its distribution; one of a sensor is on the
+// surface of the occluder.
+TEST_F(ReconstructCommand, TrustsInferredJointsOfARefinementMore) {
   const std::string in = folder_ / "guessed.jsonl", out = folder_ / "out.jsonl";
   const auto hand = recon::Index(recon::Joint::kHandLeft);
   const auto moved_m = [&](bool is_refined) {
@@ -171,7 +173,7 @@ TEST_F(ReconstructCommand, TrustsGuessesOfACloseLookMore) {
   EXPECT_LT(moved_m(true), 0.8 * moved_m(false));
 }
 
-TEST_F(ReconstructCommand, KnowsNothingOfAnUnknownSensor) {
+TEST_F(ReconstructCommand, CorrectsNothingForAnUnknownSensor) {
   const auto run = RunOssa({"reconstruct", in_, "--out", folder_ / "out.jsonl"});
   EXPECT_EQ(run.err.find("ossagp"), std::string::npos) << run.err;
 }
@@ -180,20 +182,20 @@ TEST_F(ReconstructCommand, CompletesEveryFrame) {
   const auto made = Made({});
   ASSERT_EQ(made.frames.size(), 60u);
   EXPECT_EQ(made.frames.back().bodies.at(0).id, 3);
-  // Without error nor noise there is nothing to mend: smoothing lags by a centimetre or so.
+  // Without error and noise only smoothing moves joints: it lags by about a centimetre.
   EXPECT_LT(MeanDistance(made, Recording()), 0.03);
 }
 
-// It counted 180 of 180: each of the three times that a frame is gone through.
-TEST_F(ReconstructCommand, CountsAFrameOnceHoweverOftenItIsGoneThrough) {
+// It counted 180 of 180: each of the three passes over a frame.
+TEST_F(ReconstructCommand, CountsAFrameOnceOverSeveralPasses) {
   const auto run = RunOssa({"reconstruct", in_, "--out", folder_ / "out.jsonl", "--bones",
                             "recording", "--physics", "on"});
   EXPECT_NE(run.err.find("reconstruct: 60 of 60"), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find("180"), std::string::npos) << run.err;
 }
 
-// Whoever compares methods gives all of them the same files.
-TEST_F(ReconstructCommand, SaysWhichFilesTheMethodDoesNotRead) {
+// Users who compare methods give all of them the same files.
+TEST_F(ReconstructCommand, ReportsFilesThatTheMethodDoesNotRead) {
   const auto with = [&](const char* method, const char* option) {
     return RunOssa({"reconstruct", in_, "--out", folder_ / "out.jsonl", "--quiet", "--method",
                     method, option, "/no.file"});
@@ -212,7 +214,7 @@ TEST_F(ReconstructCommand, SaysWhichFilesTheMethodDoesNotRead) {
   EXPECT_EQ(with("best", "--prior").exit_status, 1);
 }
 
-TEST_F(ReconstructCommand, TakesWhatTheMethodReads) {
+TEST_F(ReconstructCommand, AcceptsTheOptionsOfTheMethod) {
   for (const char* method : {"shum-2013", "plantard-2016"}) {
     Made({"--method", method, "--solver", "ceres", "--neighbours", "20", "--dimensions", "8",
           "--steps", "4", "--weights", "1,1,1,1", "--no-reliability", "--keep-reliable"});
@@ -221,7 +223,7 @@ TEST_F(ReconstructCommand, TakesWhatTheMethodReads) {
   Made({"--method", "butterworth", "--cutoff", "3", "--learned", "none"});
 }
 
-TEST_F(ReconstructCommand, LetsACharacterFollowWithConstantBonesAndOrientations) {
+TEST_F(ReconstructCommand, PhysicsKeepsBoneLengthsConstantAndWritesOrientations) {
   for (const char* control : {"pd", "motor"}) {
     const auto made = Made({"--method", "none", "--physics", "on", "--control", control});
     ASSERT_EQ(made.frames.size(), 60u);
@@ -235,8 +237,8 @@ TEST_F(ReconstructCommand, LetsACharacterFollowWithConstantBonesAndOrientations)
   }
 }
 
-TEST_F(ReconstructCommand, HingesAndJointLimitsChangeWhatTheCharacterDoes) {
-  // A head that hangs down the back, as no head hangs.
+TEST_F(ReconstructCommand, HingesAndJointLimitsChangeTheMotionOfTheCharacter) {
+  // A head that hangs down the back, beyond its limits.
   auto recording = Recording();
   for (auto& frame : recording.frames) {
     auto& joints = frame.bodies[0].joints;
@@ -255,9 +257,9 @@ TEST_F(ReconstructCommand, HingesAndJointLimitsChangeWhatTheCharacterDoes) {
   EXPECT_LT(BoneDrift(hinged), 1e-4);
 }
 
-// The first frame has a forearm 15 cm too long, by which all others are made unless the whole
-// recording tells how long it is.
-TEST_F(ReconstructCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
+// The first frame has a forearm 15 cm too long, which all others keep unless its length is measured
+// over the whole recording.
+TEST_F(ReconstructCommand, BonesOfTheRecordingAreEqualInEveryFrame) {
   const auto truth = Recording();
   auto recording = truth;
   for (const size_t joint : {size_t{6}, size_t{7}})
@@ -276,7 +278,7 @@ TEST_F(ReconstructCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
   EXPECT_LT(BoneDrift(Made({"--bones", "recording", "--physics", "on"}, "c.jsonl")), 1e-3);
 }
 
-TEST_F(ReconstructCommand, OfAFolderGoesToAFolder) {
+TEST_F(ReconstructCommand, WritesAFolderForAFolder) {
   const std::string clips = folder_ / "clips", out = folder_ / "made";
   std::filesystem::create_directories(clips);
   recon::WriteSkeletons(clips + "/a.jsonl", Recording());
@@ -293,7 +295,7 @@ TEST_F(ReconstructCommand, PhysicsOffIsTheDefault) {
   EXPECT_EQ(MeanDistance(Made({}, "a.jsonl"), Made({"--physics", "off"}, "b.jsonl")), 0.0);
 }
 
-TEST_F(ReconstructCommand, ACharacterStandsInForJointsThatAFileLacks) {
+TEST_F(ReconstructCommand, PhysicsFillsJointsThatAFileLacks) {
   auto recording = Recording();
   for (auto& frame : recording.frames) frame.bodies[0].joints[11].reset();
   recon::WriteSkeletons(in_, recording);
@@ -304,8 +306,8 @@ TEST_F(ReconstructCommand, ACharacterStandsInForJointsThatAFileLacks) {
   EXPECT_EQ(hand->state, recon::TrackingState::kInferred);
 }
 
-// A gap is filled there, at 30 frames a second.
-TEST_F(ReconstructCommand, RefusesABvhThatNobodyWouldRead) {
+// A .bvh has a fixed frame rate: gaps are filled at 30 frames a second.
+TEST_F(ReconstructCommand, RefusesToFillAHugeGapInABvh) {
   auto recording = Recording();
   for (size_t f = 30; f < 33; ++f) {
     for (size_t later = f; later < 60; ++later) recording.frames[later].time_s += 80000.0;
@@ -322,7 +324,7 @@ TEST_F(ReconstructCommand, RefusesABvhThatNobodyWouldRead) {
 }
 
 // Whatever is said after '#', and whatever is in the folder's name.
-TEST_F(ReconstructCommand, NeverWritesOverWhatItReads) {
+TEST_F(ReconstructCommand, RefusesToOverwriteItsInput) {
   std::filesystem::create_directory(folder_ / "a#b");
   const std::string in = folder_ / "a#b/in.jsonl";
   recon::WriteSkeletons(in, Recording());
@@ -343,7 +345,7 @@ void PrintTo(const BadReconstruct& value, std::ostream* out) { *out << value.nam
 
 class BadReconstructUse : public testing::TestWithParam<BadReconstruct> {};
 
-TEST_P(BadReconstructUse, IsOneLineThatNamesIt) {
+TEST_P(BadReconstructUse, IsReportedInOneLineThatNamesIt) {
   test::TemporaryFolder folder;
   const std::string in = folder / "in.jsonl";
   recon::WriteSkeletons(in, Recording());

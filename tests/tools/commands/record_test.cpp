@@ -33,7 +33,7 @@ int FramesIn(const std::filesystem::path& path) {
   return count;
 }
 
-TEST(RecordCommand, RecordsAFolderAndARecordingOfItIsTheSame) {
+TEST(RecordCommand, RecordingOfARecordingIsIdentical) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 5);
   const std::string first = (folder / "a.oni").string();
@@ -47,7 +47,7 @@ TEST(RecordCommand, RecordsAFolderAndARecordingOfItIsTheSame) {
   EXPECT_EQ(source->Read(test::kCommandTimeout).frame.depth_mm, ExampleFrame(0).depth_mm);
 }
 
-TEST(RecordCommand, MirroredImagesAreRecordedAsTheSensorLooks) {
+TEST(RecordCommand, RecordsMirroredImagesUnmirrored) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 1);
   const std::string out = (folder / "x.oni").string();
@@ -60,7 +60,7 @@ TEST(RecordCommand, MirroredImagesAreRecordedAsTheSensorLooks) {
   EXPECT_EQ(depth::Unmirrored(frame).depth_mm, ExampleFrame(0).depth_mm);
 }
 
-TEST(RecordCommand, StopsAfterSoManySeconds) {
+TEST(RecordCommand, StopsAfterTheGivenSeconds) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 40);
   const std::string out = (folder / "x.oni").string();
@@ -79,13 +79,13 @@ TEST(RecordCommand, RecordsALiveDeviceToItsEnd) {
   EXPECT_GE(FramesIn(out), 5) << "all sixty, unless the machine is busy";
 }
 
-// It says "recording" on stderr with its first frame.
+// The command prints "recording" on stderr with its first frame.
 auto StartEndlessRecording(const TemporaryFolder& folder, const std::string& out) {
   return test::StartOssa({"record", "openni:ossa://" + folder.path().string() + "?loop=1", "--out",
                           out, "--seconds", "1000"});
 }
 
-TEST(RecordCommand, CtrlCEndsCleanlyWithAWholeFile) {
+TEST(RecordCommand, CtrlCLeavesACompleteFile) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   const std::string out = (folder / "x.oni").string();
@@ -97,7 +97,7 @@ TEST(RecordCommand, CtrlCEndsCleanlyWithAWholeFile) {
   EXPECT_GE(FramesIn(out), 1);
 }
 
-TEST(RecordCommand, KilledItLeavesNothingUnderTheFinalName) {
+TEST(RecordCommand, LeavesNothingUnderTheFinalNameWhenKilled) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   const std::string out = (folder / "x.oni").string();
@@ -118,7 +118,7 @@ TEST(RecordCommand, KilledItLeavesNothingUnderTheFinalName) {
 }
 
 // `ulimit -f` counts kilobytes; a frame has more than two.
-TEST(RecordCommand, OnAFullDiskSaysHowManyFramesItKept) {
+TEST(RecordCommand, ReportsTheFramesKeptOnAFullDisk) {
   const TemporaryFolder folder;
   constexpr int kFrames = 40;
   WriteExampleFolder(folder.path(), kFrames);
@@ -139,7 +139,7 @@ TEST(RecordCommand, OnAFullDiskSaysHowManyFramesItKept) {
   }
 }
 
-TEST(RecordCommand, WaitsForADeviceThatComesLater) {
+TEST(RecordCommand, WaitsForADeviceToAppear) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "soon");
   WriteExampleFolder(folder / "soon", 10);
@@ -165,7 +165,7 @@ TEST(RecordCommand, CtrlCEndsTheWaitForADevice) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(RecordCommand, ADeviceThatFallsSilentIsAFailureWithAWholeFile) {
+TEST(RecordCommand, FailsWithACompleteFileWhenADeviceStopsDelivering) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   const std::string out = (folder / "x.oni").string();
@@ -178,7 +178,7 @@ TEST(RecordCommand, ADeviceThatFallsSilentIsAFailureWithAWholeFile) {
   EXPECT_GE(FramesIn(out), 1);
 }
 
-TEST(RecordCommand, KeepsWhatADeviceGaveBeforeAFrameThatCannotBeRecorded) {
+TEST(RecordCommand, KeepsTheFramesBeforeOneThatCannotBeRecorded) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "in");
   WriteExampleFolder(folder / "in", 4, 256, 136);
@@ -197,7 +197,7 @@ TEST(RecordCommand, KeepsWhatADeviceGaveBeforeAFrameThatCannotBeRecorded) {
   EXPECT_GE(FramesIn(out), 1);
 }
 
-TEST(RecordCommand, SaysWhatIsWrongInOneLine) {
+TEST(RecordCommand, ReportsErrorsInOneLine) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 3);
   const std::string out = (folder / "x.oni").string();
@@ -230,7 +230,7 @@ TEST(RecordCommand, SaysWhatIsWrongInOneLine) {
   }
 }
 
-TEST(RecordCommand, AFrameThatCannotBeReadIsSkippedAndToldOf) {
+TEST(RecordCommand, SkipsAndReportsUnreadableFrames) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 3);
   std::ofstream(folder / "000001.png") << "no PNG";
@@ -245,7 +245,7 @@ TEST(RecordCommand, AFrameThatCannotBeReadIsSkippedAndToldOf) {
 // Debian puts fakenect's libfreenect beside the real one.
 const char* const kFakenect = "/usr/lib/x86_64-linux-gnu/fakenect";
 
-TEST(RecordCommand, WritesDumpsThatTheKinectDriverPlaysBitForBit) {
+TEST(RecordCommand, WritesDumpsThatTheKinectDriverPlaysBitExactly) {
   if (!std::filesystem::is_directory(kFakenect)) GTEST_SKIP() << "no fakenect: " << kFakenect;
   const TemporaryFolder folder;
   const std::string dump = (folder / "dump").string();
@@ -271,7 +271,7 @@ TEST(RecordCommand, WritesDumpsThatTheKinectDriverPlaysBitForBit) {
 }
 
 // OpenNI2 itself crashes on names that are not ASCII and cuts off after 255 characters.
-TEST(RecordCommand, NamesMayHoldAnyBytes) {
+TEST(RecordCommand, AcceptsFileNamesOfAnyBytes) {
   const TemporaryFolder folder;
   for (const std::string& name :
        {std::string("caf\xC3\xA9 \xE6\x97\xA5"), std::string("\xFF\xFE\n"),
@@ -292,7 +292,7 @@ TEST(RecordCommand, NamesMayHoldAnyBytes) {
   EXPECT_NE(other.err.find("expected a URI in ASCII"), std::string::npos) << other.err;
 }
 
-TEST(RecordCommand, HelpIsNoFailure) {
+TEST(RecordCommand, HelpExitsWithZero) {
   const CommandResult result = RunOssa({"record", "--help"});
   EXPECT_EQ(result.exit_status, 0);
   EXPECT_NE(result.out.find("--seconds"), std::string::npos);

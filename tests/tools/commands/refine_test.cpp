@@ -1,5 +1,5 @@
-// `ossa refine` from the outside: it learns from rendered people, and track refines joints with
-// what it made.
+// `ossa refine` as a process: it learns from rendered people, and track refines joints with its
+// output.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ recon::RefinementCascade HeadHigher(double up_m) {
   return cascade;
 }
 
-// The same with bones that are the standard ones whoever it is.
+// The same, with the standard bone lengths estimated for everybody.
 recon::RefinementCascade StandardBones() {
   recon::RefinementCascade cascade = HeadHigher(0.0);
   cascade.measured = 1;
@@ -69,7 +69,7 @@ class RefineCommand : public ::testing::Test {
     if (people_.empty()) RenderPeople(people_ = folder_ / "people");
     return people_;
   }
-  // Runs `ossa refine` on them with these options beside the fixed ones; the bytes that it wrote.
+  // Runs `ossa refine` on them with these options beside the fixed ones; returns the written bytes.
   std::string Learn(const std::string& out, std::vector<std::string> options,
                     const char* threads = "2") {
     std::vector<std::string> words = {"refine",   people(), "--out",     out,     "--hidden", "4",
@@ -83,7 +83,7 @@ class RefineCommand : public ::testing::Test {
     cascade.Save(folder_ / name);
     return folder_ / name;
   }
-  // What track writes of a rendered clip with these options.
+  // The output of track of a rendered clip with these options.
   std::string Track(std::vector<std::string> options) {
     const std::string clip = folder_ / "clip", out = folder_ / "joints.jsonl";
     if (!std::filesystem::exists(clip)) {
@@ -106,7 +106,7 @@ class RefineCommand : public ::testing::Test {
 
 using Cascade = recon::RefinementCascade;
 
-TEST_F(RefineCommand, LearnsTheSameStageForAnyThreads) {
+TEST_F(RefineCommand, LearnsTheSameStageForAnyNumberOfThreads) {
   const std::string out = folder_ / "a.ossarefine";
   EXPECT_EQ(Learn(out, {}, "1"), Learn(folder_ / "b.ossarefine", {}, "3"));
   const Cascade learned = Cascade::Load(out);
@@ -121,7 +121,7 @@ TEST_F(RefineCommand, LearnsTheSameStageForAnyThreads) {
       << info.out << info.err;
 }
 
-TEST_F(RefineCommand, LearnsFromAboveWhereAllPeopleAreSeenFromThere) {
+TEST_F(RefineCommand, LearnsAnOverheadCascadeWhenAllPeopleAreSeenFromAbove) {
   const std::string above = folder_ / "above", out = folder_ / "above.ossarefine";
   RenderPeople(above, "ceiling");
   const std::string forest = tracker::ShippedFile("body_ceiling.ossa");
@@ -148,7 +148,7 @@ TEST_F(RefineCommand, LearnsFromAboveWhereAllPeopleAreSeenFromThere) {
       << after.err;
 }
 
-TEST_F(RefineCommand, AddsAStageToThoseOfTheFileAfterWhichItComes) {
+TEST_F(RefineCommand, AddsAStageToTheStagesOfTheGivenFile) {
   const Cascade before = HeadHigher(0.02);
   const std::string out = folder_ / "twice.ossarefine";
   Learn(out, {"--after", Saved("once.ossarefine", before)});
@@ -162,7 +162,7 @@ TEST_F(RefineCommand, AddsAStageToThoseOfTheFileAfterWhichItComes) {
             std::string::npos);
 }
 
-TEST_F(RefineCommand, LearnsTheSameBonesForAnyThreads) {
+TEST_F(RefineCommand, LearnsTheSameBonesForAnyNumberOfThreads) {
   const std::string after = Saved("once.ossarefine", HeadHigher(0.0));
   const std::string out = folder_ / "a.ossarefine";
   EXPECT_EQ(Learn(out, {"--after", after, "--bones"}, "1"),
@@ -171,7 +171,7 @@ TEST_F(RefineCommand, LearnsTheSameBonesForAnyThreads) {
   EXPECT_NE(info.out.find("an estimate of 11 bones"), std::string::npos) << info.out;
 }
 
-TEST_F(RefineCommand, LearnsTheSameBoneConditionedStageForAnyThreads) {
+TEST_F(RefineCommand, LearnsTheSameBoneConditionedStageForAnyNumberOfThreads) {
   const std::string after = Saved("bones.ossarefine", StandardBones());
   const std::string out = folder_ / "a.ossarefine";
   EXPECT_EQ(Learn(out, {"--after", after}, "1"),
@@ -181,7 +181,7 @@ TEST_F(RefineCommand, LearnsTheSameBoneConditionedStageForAnyThreads) {
   EXPECT_NE(RunOssa({"info", out}).out.find("; 1 bone-conditioned stage"), std::string::npos);
 }
 
-TEST_F(RefineCommand, WarnsWhereTheStagesBeforeAreOfAnotherForest) {
+TEST_F(RefineCommand, WarnsWhenEarlierStagesBelongToAnotherForest) {
   const std::string first = folder_ / "first.ossarefine", out = folder_ / "two.ossarefine";
   Learn(first, {});
   const uint64_t forest = ReadContainerChecksum(tracker::ShippedFile("body.ossa"));
@@ -204,7 +204,7 @@ TEST_F(RefineCommand, WarnsWhereTheStagesBeforeAreOfAnotherForest) {
   EXPECT_EQ(test::LineCount(other), 1) << other;
 }
 
-TEST_F(RefineCommand, LearnsNoBonesOnceAStageIsConditionedOnThem) {
+TEST_F(RefineCommand, RefusesToLearnBonesOnceAStageIsConditionedOnThem) {
   Cascade cascade = StandardBones();
   cascade.bone_conditioned.emplace_back().fill(
       test::SilentPerceptron({recon::kBoneConditionedFeatures, 3}));
@@ -215,19 +215,19 @@ TEST_F(RefineCommand, LearnsNoBonesOnceAStageIsConditionedOnThem) {
   EXPECT_EQ(test::LineCount(run.err), 1) << run.err;
 }
 
-TEST_F(RefineCommand, MakesWhatTrackRefinesJointsWith) {
+TEST_F(RefineCommand, WritesTheFileThatTrackRefinesJointsWith) {
   const std::string higher = Saved("higher.ossarefine", HeadHigher(0.1));
   const std::string raw = Track({"--posture", "raw", "--refinement", higher});
   EXPECT_NE(raw.find("HipCenter"), std::string::npos);
   EXPECT_FALSE(raw == Track({"--posture", "refined", "--refinement", higher}));
 }
 
-TEST_F(RefineCommand, IsNotNeededForTrackToRefine) {
+TEST_F(RefineCommand, TrackRefinesWithTheShippedCascadeByDefault) {
   const std::string raw = Track({"--method", "none", "--posture", "raw"});
   EXPECT_FALSE(raw == Track({"--method", "none", "--posture", "refined"}));  // by the shipped one
 }
 
-TEST_F(RefineCommand, IsUnderstoodByTheNamesOfVersionsBefore) {
+TEST_F(RefineCommand, OptionAndCommandNamesOfEarlierVersionsWork) {
   const std::string higher = Saved("higher.ossalook", HeadHigher(0.1));
   EXPECT_EQ(Track({"--posture", "looked", "--look", higher}),
             Track({"--posture", "refined", "--refinement", higher}));
@@ -236,14 +236,14 @@ TEST_F(RefineCommand, IsUnderstoodByTheNamesOfVersionsBefore) {
   EXPECT_NE(run.err.find("/nonexistent"), std::string::npos) << run.err;
 }
 
-TEST_F(RefineCommand, IsRefusedByTrackInOneLineWhereTheFileIsNone) {
+TEST_F(RefineCommand, TrackRefusesAFileOfAnotherKindInOneLine) {
   const auto bad = RunOssa({"track", "/nonexistent", "--out", folder_ / "x.jsonl", "--refinement",
                             Saved("a.ossarefine", HeadHigher(0.0)) + "/not"});
   EXPECT_EQ(bad.exit_status, 1);
   EXPECT_EQ(test::LineCount(bad.err), 1) << bad.err;
 }
 
-TEST_F(RefineCommand, IsWarnedOfByTrackBesideAnotherForestThanItsOwn) {
+TEST_F(RefineCommand, TrackWarnsOfACascadeOfAnotherForest) {
   Cascade cascade = HeadHigher(0.1);
   const auto said = [&](uint64_t learned_at) {
     cascade.forest_checksum = learned_at;
@@ -261,7 +261,7 @@ TEST_F(RefineCommand, IsWarnedOfByTrackBesideAnotherForestThanItsOwn) {
   EXPECT_EQ(test::LineCount(other), test::LineCount(fits) + 1) << other;
 }
 
-// Where the joints truly are, in camera space.
+// The true joints, in camera space.
 recon::Posture TruthOf(const tools::RefinementExample& example) {
   const recon::ProposedPerson& person = example.person;
   recon::Posture true_m;
@@ -274,7 +274,7 @@ recon::Posture TruthOf(const tools::RefinementExample& example) {
   return true_m;
 }
 
-TEST(RefinementExamples, OfShiftedPlacesLeadToTheSameJoints) {
+TEST(RefinementExamples, OfShiftedStartsHaveTheSameTargets) {
   if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   const std::string people = folder / "people";
@@ -304,7 +304,7 @@ TEST(RefinementExamples, OfShiftedPlacesLeadToTheSameJoints) {
   EXPECT_EQ(tools::GatherRefinementExamples(model, {people}, options).all.size(), found.people);
 }
 
-TEST(RefinementExamples, GetBonesBetweenTheTrueOnesAndThoseThatAreEstimated) {
+TEST(RefinementExamples, InterpolateBonesBetweenTrueAndEstimated) {
   if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   const std::string people = folder / "people";
@@ -331,7 +331,7 @@ TEST(RefinementExamples, GetBonesBetweenTheTrueOnesAndThoseThatAreEstimated) {
   EXPECT_GT(most, 0.9);
 }
 
-TEST(RefineCommandErrors, AreOfOneLine) {
+TEST(RefineCommandErrors, AreReportedInOneLine) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "x.ossarefine";
   EXPECT_EQ(RunOssa({"refine", "--out", out}).exit_status, 2);
@@ -363,7 +363,7 @@ TEST(RefineCommandErrors, AreOfOneLine) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(RefineCommandErrors, MoreStagesThanMayBe) {
+TEST(RefineCommandErrors, TooManyStagesAreRefused) {
   const test::TemporaryFolder folder;
   recon::RefinementCascade cascade = HeadHigher(0.0);
   cascade.stages.resize(recon::RefinementCascade::kMaxStages, cascade.stages[0]);

@@ -1,4 +1,4 @@
-// `ossa render` from the outside: which options go together, and what the data set says of them.
+// `ossa render` as a process: which options may be combined, and how the manifest records them.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct Refused {
   std::string said;
 };
 
-TEST(RenderCommand, RefusesWhatDoesNotGoTogetherAsWrongUsage) {
+TEST(RenderCommand, RefusesConflictingOptionsAsWrongUsage) {
   const test::TemporaryFolder folder;
   const std::vector<Refused> cases = {
       {{"--camera", "any"}, "--format packed"},
@@ -51,7 +51,7 @@ TEST(RenderCommand, RefusesWhatDoesNotGoTogetherAsWrongUsage) {
   }
 }
 
-TEST(RenderCommand, AShrunkImagesCameraIsInTheManifest) {
+TEST(RenderCommand, WritesTheCameraOfShrunkImagesToTheManifest) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   const auto run = RunOssa({"render", "--mocap", "authored-floor", "--frames", "2", "--out",
@@ -65,8 +65,8 @@ TEST(RenderCommand, AShrunkImagesCameraIsInTheManifest) {
   EXPECT_NE(manifest["command"].get<std::string>().find("--shrink 2.4"), std::string::npos);
 }
 
-// What made the data set can be given to a shell again.
-TEST(ShellWord, IsQuotedWhereAShellWouldTakeItApart) {
+// The command of a manifest can be pasted into a shell.
+TEST(ShellWord, IsQuotedWhereAShellWouldSplitOrExpandIt) {
   EXPECT_EQ(ShellWord("mocap/cmu30_train"), "mocap/cmu30_train");
   EXPECT_EQ(ShellWord("Bewegungen/Größe"), "Bewegungen/Größe");
   EXPECT_EQ(ShellWord("my mocap"), "'my mocap'");
@@ -83,7 +83,7 @@ class RenderCameras : public testing::Test {
   std::string out_ = folder_ / "clip";
 };
 
-TEST_F(RenderCameras, EachHaveADataSetAndAPlace) {
+TEST_F(RenderCameras, WriteADataSetAndExtrinsicsEach) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   for (int again = 0; again < 2; ++again) {  // what is there stays
     const auto run = Render();
@@ -102,7 +102,7 @@ TEST_F(RenderCameras, EachHaveADataSetAndAPlace) {
   }
 }
 
-TEST_F(RenderCameras, DoNotMixWithAnythingElseInTheFolder) {
+TEST_F(RenderCameras, RefuseAFolderWithOtherFiles) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   std::filesystem::create_directories(out_);
   std::ofstream(out_ + "/manifest.json") << "{}";

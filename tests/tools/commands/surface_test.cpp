@@ -1,4 +1,4 @@
-// `ossa surface` from the outside: it can be stopped, and kept quiet.
+// `ossa surface` as a process: interruption and --quiet.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -20,7 +20,7 @@ class SurfaceCommand : public ::testing::Test {
   test::TemporaryFolder folder_;
 };
 
-// It dressed everybody, and wrote the file.
+// Ctrl-C was ignored and the file was written.
 TEST_F(SurfaceCommand, InterruptedWritesNothing) {
   const std::string out = folder_ / "x.ossasurface";
   test::RunningCommand run =
@@ -34,7 +34,7 @@ TEST_F(SurfaceCommand, InterruptedWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST_F(SurfaceCommand, QuietSaysNothingOfItsProgress) {
+TEST_F(SurfaceCommand, QuietPrintsNoProgress) {
   const test::CommandResult run =
       test::RunOssa({"surface", "--mocap", "authored", "--people", "50", "--points", "50", "--out",
                      folder_ / "x.ossasurface", "--quiet"});

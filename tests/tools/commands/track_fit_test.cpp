@@ -20,7 +20,7 @@ using test::RunOssa;
 using test::TemporaryFolder;
 using tracker::ModelOrNothing;
 
-TEST(TrackCommand, SavesThePersonAndTakesThemAgain) {
+TEST(TrackCommand, SavesAPersonFileAndReadsIt) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 6);
@@ -35,8 +35,8 @@ TEST(TrackCommand, SavesThePersonAndTakesThemAgain) {
   EXPECT_NE(info.out.find("m tall"), std::string::npos) << info.out;
 }
 
-// As a camera of a third wider view has it, of the same size: a D435's f is 384 px where a Kinect's
-// is 575.
+// A camera of the same image size with a third wider view: f of a D435 is 384 px, of a Kinect v1
+// 575 px.
 void WidenView(const std::filesystem::path& folder) {
   constexpr double kWider = 575.0 / 384.0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -58,7 +58,7 @@ void WidenView(const std::filesystem::path& folder) {
   }
 }
 
-TEST(TrackCommand, SaysWhereAGuessedCameraMakesAdultsChildren) {
+TEST(TrackCommand, WarnsWhenAGuessedCameraMakesPeopleTooSmall) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 12);
@@ -89,7 +89,7 @@ TEST(TrackCommand, RefusesAPersonFileThatIsDamaged) {
   EXPECT_EQ(LineCount(result.err), 1);
 }
 
-TEST(TrackCommand, SaysWhereNobodyIsThereWhoCouldBeSaved) {
+TEST(TrackCommand, ReportsThatNobodyCouldBeSaved) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "wall");
@@ -124,14 +124,14 @@ TEST(TrackCommand, WritesNoFittedJointsWithoutAFit) {
       << result.err;
 }
 
-TEST(TrackCommand, TakesNoPersonFileWithoutAFit) {
+TEST(TrackCommand, RefusesAPersonFileWithoutAFit) {
   const CommandResult result =
       RunOssa({"track", "in", "--out", "x.jsonl", "--fit", "off", "--person", "me.ossaperson"});
   EXPECT_EQ(result.exit_status, 2);
   EXPECT_NE(result.err.find("--person: expected a surface fit"), std::string::npos) << result.err;
 }
 
-TEST(TrackCommand, SavesNobodyWithoutJointsThatABodyIsFittedTo) {
+TEST(TrackCommand, RefusesToSaveAPersonWithoutJointsForAFit) {
   for (const auto& without : {std::vector<std::string>{"--method", "none"},
                               std::vector<std::string>{"--refinement", "none"}}) {
     std::vector<std::string> words = {"track", "in", "--save-person", "me.ossaperson"};

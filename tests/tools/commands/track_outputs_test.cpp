@@ -24,7 +24,7 @@ using tracker::PersonAt;
 
 class OutputFormats : public testing::TestWithParam<const char*> {};
 
-TEST_P(OutputFormats, AreReadBackByTheReadersOfCompare) {
+TEST_P(OutputFormats, AreReadBackByCompare) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 6);
@@ -36,7 +36,7 @@ TEST_P(OutputFormats, AreReadBackByTheReadersOfCompare) {
   for (const auto& frame : back.frames) EXPECT_EQ(frame.bodies.size(), 1U);
 }
 
-TEST(TrackCommand, AllFormatsSayTheSameToAReaderThatIsNotOurs) {
+TEST(TrackCommand, AllFormatsAgreeInAnIndependentReader) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 6);
@@ -55,7 +55,7 @@ TEST(TrackCommand, AllFormatsSayTheSameToAReaderThatIsNotOurs) {
 INSTANTIATE_TEST_SUITE_P(TrackCommand, OutputFormats, testing::Values("jsonl", "trc", "csv", "bvh"),
                          [](const auto& info) { return std::string(info.param); });
 
-TEST(TrackCommand, SaysHowManyFramesAndWritesEveryStagesMilliseconds) {
+TEST(TrackCommand, PrintsTheFrameCountAndWritesMillisecondsPerStage) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 4);
@@ -82,7 +82,7 @@ nlohmann::json FindDecision(const nlohmann::json& frame, const std::string& rule
   return {};
 }
 
-TEST(TrackCommand, TracesWhichRuleDecidedAboutEveryPieceOfTheScene) {
+TEST(TrackCommand, TracesTheDecidingRuleOfEveryCandidate) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "in");
@@ -124,7 +124,7 @@ TEST(TrackCommand, TracesWhichRuleDecidedAboutEveryPieceOfTheScene) {
   EXPECT_FALSE(std::getline(file, line));
 }
 
-TEST(TrackCommand, RefusesATraceThatIsNoJsonLinesOrAnotherOutput) {
+TEST(TrackCommand, RefusesATraceOfAnotherFormatOrOfTheNameOfAnotherOutput) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "in");
   WriteExampleFolder(folder / "in", 1);
@@ -136,7 +136,7 @@ TEST(TrackCommand, RefusesATraceThatIsNoJsonLinesOrAnotherOutput) {
   EXPECT_EQ(track(folder / "x.jsonl"), 2);
 }
 
-TEST(TrackCommand, SameFramesSameSeedSameBytesWhateverTheThreads) {
+TEST(TrackCommand, WritesTheSameBytesForAnyNumberOfThreads) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 5);
@@ -164,7 +164,7 @@ TEST(TrackCommand, WritesOnePictureOfFourPanels) {
   EXPECT_GT(std::filesystem::file_size(picture), 1000U);
 }
 
-TEST(TrackCommand, AnUnknownExtensionIsRefusedBeforeAnythingIsTracked) {
+TEST(TrackCommand, RefusesAnUnknownExtensionBeforeTracking) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 1);
@@ -173,8 +173,8 @@ TEST(TrackCommand, AnUnknownExtensionIsRefusedBeforeAnythingIsTracked) {
   EXPECT_NE(result.err.find("x.doc"), std::string::npos) << result.err;
 }
 
-// A recording or a data set would be gone.
-TEST(TrackCommand, NeverWritesOverTheFramesItReads) {
+// A recording or a data set would be lost.
+TEST(TrackCommand, RefusesToOverwriteItsInput) {
   const TemporaryFolder folder;
   WriteWalk(folder / "data/depth", 2);
   std::ofstream(folder / "data/manifest.json") << "{}";

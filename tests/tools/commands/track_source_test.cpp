@@ -23,7 +23,7 @@ using tracker::PersonAt;
 using tracker::Rendered;
 
 // rs.align(rs.stream.color): images of the depth camera's size, as the colour camera sees them.
-TEST(TrackCommand, DepthAlignedToColourIsToldByThePeopleInIt) {
+TEST(TrackCommand, RecognisesDepthAlignedToColourByThePeopleInIt) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   tests::CapsuleScene scene;
@@ -45,7 +45,7 @@ TEST(TrackCommand, DepthAlignedToColourIsToldByThePeopleInIt) {
   EXPECT_EQ(said.err.find("d435-color"), std::string::npos) << said.err;
 }
 
-// A walk off the middle, by a camera on its side.
+// A walk beside the image centre, by a camera on its side.
 void WriteTurnedWalk(const std::filesystem::path& folder, bool mirrored) {
   std::filesystem::create_directories(folder);
   for (int i = 0; i < 3; ++i) {
@@ -57,7 +57,7 @@ void WriteTurnedWalk(const std::filesystem::path& folder, bool mirrored) {
   }
 }
 
-TEST(TrackCommand, MirroredImagesGiveTheSkeletonsOfThoseThatAreNot) {
+TEST(TrackCommand, MirroredImagesGiveTheSkeletonsOfUnmirroredOnes) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteTurnedWalk(folder / "plain", false);
@@ -83,7 +83,7 @@ void PrintTo(const FlatScene& scene, std::ostream* out) { *out << scene.name; }
 
 class FramesWithNobody : public testing::TestWithParam<FlatScene> {};
 
-TEST_P(FramesWithNobody, GiveEmptyFramesNotPeople) {
+TEST_P(FramesWithNobody, GiveFramesWithoutBodies) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteFlat(folder.path(), GetParam().depth_mm, 3);
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(TrackCommand, FramesWithNobody,
                                          FlatScene{"allNear", 500}, FlatScene{"allMost", 65535}),
                          [](const auto& info) { return info.param.name; });
 
-TEST(TrackCommand, AFolderWithGapsInItsNumbersIsTrackedInNameOrder) {
+TEST(TrackCommand, TracksAFolderWithGapsInItsNumbersInNameOrder) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 6);
@@ -111,7 +111,7 @@ TEST(TrackCommand, AFolderWithGapsInItsNumbersIsTrackedInNameOrder) {
   EXPECT_EQ(recon::ReadSkeletons(out.string()).frames.size(), 4U);
 }
 
-TEST(TrackCommand, FramesOfAnotherSizeAreSkippedAndToldOf) {
+TEST(TrackCommand, SkipsAndReportsFramesOfAnotherSize) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   for (const char* name : {"a.png", "c.png"}) {
@@ -127,8 +127,8 @@ TEST(TrackCommand, FramesOfAnotherSizeAreSkippedAndToldOf) {
   EXPECT_EQ(recon::ReadSkeletons(out.string()).frames.size(), 2U);
 }
 
-// Of a room in centimetres, as of anything that cannot be millimetres.
-TEST(TrackCommand, DepthsOfAnotherUnitAreRefusedUntilAnOptionReadsThem) {
+// A room in centimetres, as one of the units that are recognised as not millimetres.
+TEST(TrackCommand, RefusesDepthsOfAnotherUnitUntilAnOptionStatesIt) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   depth::DepthFrame frame = Rendered({PersonAt(0, 2.6)}, 0).frame;
@@ -143,7 +143,7 @@ TEST(TrackCommand, DepthsOfAnotherUnitAreRefusedUntilAnOptionReadsThem) {
   EXPECT_EQ(TrackTo(folder.path(), out, {"--depth-scale", "100"}).exit_status, 0);
 }
 
-TEST(TrackCommand, ADamagedRecordingEndsWithOneLineThatNamesIt) {
+TEST(TrackCommand, ReportsADamagedRecordingInOneLine) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   const auto oni = folder / "x.oni";
@@ -154,8 +154,8 @@ TEST(TrackCommand, ADamagedRecordingEndsWithOneLineThatNamesIt) {
   EXPECT_NE(result.err.find("x.oni"), std::string::npos) << result.err;
 }
 
-// Whether it is a folder is asked before it is opened.
-TEST(TrackCommand, ANameThatIsTooLongIsNoSource) {
+// The check for a folder comes before the file is opened.
+TEST(TrackCommand, RefusesATooLongSourceName) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   const CommandResult result = TrackTo(std::string(300, 'a'), folder / "x.jsonl");
@@ -164,7 +164,7 @@ TEST(TrackCommand, ANameThatIsTooLongIsNoSource) {
   EXPECT_NE(result.err.find("expected openni:"), std::string::npos) << result.err;
 }
 
-TEST(TrackCommand, ADeviceThatDeliversNothingEndsTheRunAndTheFileIsWhole) {
+TEST(TrackCommand, EndsWithACompleteFileWhenADeviceDeliversNothing) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 5);

@@ -24,7 +24,7 @@ using test::StartOssa;
 using test::TemporaryFolder;
 using test::WriteExampleFolder;
 
-TEST(TrackCommand, SaysThatNobodyWasFoundAndWhatMayBeWrong) {
+TEST(TrackCommand, ReportsThatNobodyWasFoundAndPossibleCauses) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "in");
@@ -40,7 +40,7 @@ TEST(TrackCommand, SaysThatNobodyWasFoundAndWhatMayBeWrong) {
   EXPECT_EQ(walk.err.find("nobody"), std::string::npos) << walk.err;
 }
 
-TEST(TrackCommand, AMissingModelIsNamed) {
+TEST(TrackCommand, NamesAMissingModel) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 1);
   const CommandResult result =
@@ -61,7 +61,7 @@ TEST(TrackCommand, WrongUsageExitsWithTwo) {
   EXPECT_EQ(RunOssa({"track", ".", "--out", "x.jsonl", "--method", "magic"}).exit_status, 2);
 }
 
-TEST(TrackCommand, SaysWhichFilesTheMethodDoesNotRead) {
+TEST(TrackCommand, ReportsFilesThatTheMethodDoesNotRead) {
   const auto said = [](std::vector<std::string> options) {
     std::vector<std::string> arguments = {"track",   "/nonexistent", "--out",
                                           "x.jsonl", "--method",     "kalman"};
@@ -73,13 +73,13 @@ TEST(TrackCommand, SaysWhichFilesTheMethodDoesNotRead) {
   };
   for (const char* option : {"--refinement", "--learned", "--prior", "--database"})
     EXPECT_TRUE(said({option, "x.file"})) << option;
-  // Where there is none of it nothing is lost, and raw joints may be looked at again.
+  // "none" is no file, and raw joints may be refined.
   EXPECT_FALSE(said({"--refinement", "none"}));
   EXPECT_FALSE(said({"--learned", "none"}));
   EXPECT_FALSE(said({"--posture", "refined", "--refinement", "/no.refine"}));
 }
 
-TEST(TrackCommand, SaysThatAPageIsAskedForByView) {
+TEST(TrackCommand, ReportsThatPortIsNotReadWithoutView) {
   const std::vector<std::string> words = {"track", "in", "--out", "x.jsonl", "--port", "9"};
   const auto says_so = [](std::vector<std::string> all, const std::vector<std::string>& more) {
     all.insert(all.end(), more.begin(), more.end());
@@ -91,7 +91,7 @@ TEST(TrackCommand, SaysThatAPageIsAskedForByView) {
   EXPECT_FALSE(says_so(words, {"--view"}));
 }
 
-TEST(TrackCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
+TEST(TrackCommand, BonesOfTheRecordingAreEqualInEveryFrame) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 20);
@@ -116,7 +116,7 @@ TEST(TrackCommand, BonesByTheWholeRecordingAreTheSameInEveryFrame) {
   EXPECT_LT(drift("recording"), 1e-3);
 }
 
-TEST(TrackCommand, OfSomebodySeatedHasTheUpperTenJoints) {
+TEST(TrackCommand, SeatedModeWritesTheUpperTenJoints) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 3);
@@ -133,7 +133,7 @@ TEST(TrackCommand, OfSomebodySeatedHasTheUpperTenJoints) {
   }
 }
 
-TEST(TrackCommand, BonesByTheWholeRecordingNeedARecordingAndAMethodThatKeepsThem) {
+TEST(TrackCommand, BonesOfTheRecordingNeedARecordingAndAMethodThatKeepsBones) {
   const TemporaryFolder folder;
   WriteFlat(folder.path(), 3000, 1);
   const auto out = folder / "x.jsonl";
@@ -147,7 +147,7 @@ TEST(TrackCommand, BonesByTheWholeRecordingNeedARecordingAndAMethodThatKeepsThem
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(TrackCommand, CtrlCEndsCleanlyAndTheFileIsWhole) {
+TEST(TrackCommand, CtrlCLeavesACompleteFile) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   WriteWalk(folder / "in", 20);

@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 using test::CommandResult;
 
-// tools/train_ceiling with a command that says what it is asked for, and fails to refine while
-// there is a file `cut_off`. What it writes into a card is, like times, never the same.
+// tools/train_ceiling with a stand-in for the command that logs its arguments and fails to refine
+// while a file `cut_off` exists. Its model cards differ in every run, like those with times.
 class TrainCeiling : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -40,8 +40,8 @@ case $command in train | refine) echo learned >"$2" ;; esac
   test::TemporaryFolder folder_;
 };
 
-// It grew the forest once more, and refused the cascade's stages, which were another forest's.
-TEST_F(TrainCeiling, CutOffInTheCascadeGoesOnThere) {
+// The script trained the forest again, and refused the stages of the cascade as another forest's.
+TEST_F(TrainCeiling, ResumesInTheCascadeAfterAnInterruption) {
   std::ofstream(folder_ / "cut_off") << "yes";
   EXPECT_NE(Run().exit_status, 0);
   fs::remove(folder_ / "cut_off");

@@ -1,4 +1,4 @@
-// What the scripts tools/train_* have in common: help, and refusals before anything is made.
+// Common behaviour of the scripts tools/train_*: help, and errors before anything is written.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -29,7 +29,7 @@ class TrainScript : public ::testing::TestWithParam<const char*> {
   test::TemporaryFolder folder_;
 };
 
-TEST_P(TrainScript, SaysAtHelpWhatItMakesAndWants) {
+TEST_P(TrainScript, HelpDescribesOutputsAndArguments) {
   const CommandResult help = Run({"--help"});
   EXPECT_EQ(help.exit_status, 0);
   EXPECT_NE(help.out.find(std::string("tools/") + GetParam() + " "), std::string::npos) << help.out;
@@ -45,7 +45,7 @@ TEST_P(TrainScript, RefusesAWrongNumberOfArguments) {
   EXPECT_EQ(Run({"a", "b", "c", "d"}).exit_status, 2);
 }
 
-TEST_P(TrainScript, NamesTheFolderOrCommandThatIsMissingAndMakesNothing) {
+TEST_P(TrainScript, NamesAMissingFolderOrCommandAndWritesNothing) {
   const CommandResult folder = Run({folder_ / "nosuch", folder_ / "work", folder_ / "ossa"});
   EXPECT_EQ(folder.exit_status, 1);
   EXPECT_NE(folder.err.find("nosuch: expected a folder"), std::string::npos) << folder.err;
@@ -62,10 +62,10 @@ constexpr const char* kOfMocap[] = {"train_ceiling",      "train_correction", "t
 INSTANTIATE_TEST_SUITE_P(OfMocap, TrainScript, ::testing::ValuesIn(kOfMocap));
 INSTANTIATE_TEST_SUITE_P(OfRecordings, TrainScript, ::testing::Values("train_kinect_correction"));
 
-// train_correction ended with exit status 1 and not a word; others named a folder of their own.
+// train_correction exited with 1 without a message; others named an internal folder.
 class TrainOfMocap : public TrainScript {};
 
-TEST_P(TrainOfMocap, NamesAFolderThatHasNoClipsOfTrainingSubjects) {
+TEST_P(TrainOfMocap, NamesAFolderWithoutClipsOfTrainingSubjects) {
   std::ofstream(folder_ / "mocap" / "02_01.bvh") << "BVH";  // subject 2 is for tests
   const CommandResult run = Run({folder_ / "mocap", folder_ / "work", folder_ / "ossa"});
   EXPECT_EQ(run.exit_status, 1);

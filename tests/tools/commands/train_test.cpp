@@ -1,4 +1,4 @@
-// Data sets and models that are not what they should be: one clear line each.
+// Damaged or unsuitable data sets and models: one clear line each.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -49,8 +49,8 @@ TEST_F(BadDataSet, AMissingImageIsNamed) {
   ExpectRefused("000002.png");
 }
 
-// It threw when the card was written: after all the work.
-TEST_F(BadDataSet, WordsThatAreNoUtf8AreNoFailureAtTheEnd) {
+// Writing the card failed at the end of the training.
+TEST_F(BadDataSet, InvalidUtf8InOptionsIsReplacedOnTheCard) {
   const CommandResult result =
       RunOssa({"train", data(), "--out", model(), "--trees", "1", "--depth", "3", "--pixels", "50",
                "--validation", data(), "--quiet", "--terms", "caf\xE9"});
@@ -65,14 +65,14 @@ TEST_F(BadDataSet, ATruncatedImageIsNamed) {
   ExpectRefused("000001.png");
 }
 
-TEST_F(BadDataSet, AnImageOfAnotherKindIsNamed) {
+TEST_F(BadDataSet, AnImageOfAnotherFormatIsNamed) {
   fs::copy_file(fs::path(data()) / "depth" / "000001.png",
                 fs::path(data()) / "parts" / "000001.png", fs::copy_options::overwrite_existing);
   ExpectRefused("000001.png");
 }
 
-// To open one that nobody writes to is to wait for ever.
-TEST_F(BadDataSet, PipesAreRefusedNotWaitedFor) {
+// Opening a pipe without a writer blocks for ever.
+TEST_F(BadDataSet, NamedPipesAreRefusedWithoutWaiting) {
   for (const char* name : {"truth.jsonl", "manifest.json"}) {
     fs::remove(fs::path(data()) / name);
     ASSERT_EQ(mkfifo((fs::path(data()) / name).c_str(), 0600), 0);
@@ -81,7 +81,7 @@ TEST_F(BadDataSet, PipesAreRefusedNotWaitedFor) {
 }
 
 // As README.md says of data sets of other makers.
-TEST_F(BadDataSet, UsersAreNeededOfSeveralPeopleOnly) {
+TEST_F(BadDataSet, UserImagesAreRequiredForSeveralPeopleOnly) {
   fs::remove_all(fs::path(data()) / "users");
   const std::vector<std::string> words = {
       "train", data(),     "--out", model(),        "--trees", "1",      "--depth",
@@ -98,7 +98,7 @@ TEST_F(BadDataSet, UsersAreNeededOfSeveralPeopleOnly) {
   ExpectRefused("users/000003.png");
 }
 
-TEST_F(BadDataSet, ALostManifestIsNamed) {
+TEST_F(BadDataSet, AMissingManifestIsNamed) {
   fs::remove(fs::path(data()) / "manifest.json");
   ExpectRefused("data");
 }
@@ -122,7 +122,7 @@ class TrainingRuns : public BadDataSet {
   }
 };
 
-TEST_F(TrainingRuns, AnyNumberOfRanksWritesTheSameBytes) {
+TEST_F(TrainingRuns, WriteTheSameBytesForAnyNumberOfRanks) {
   if (!fs::exists("/usr/bin/mpirun")) GTEST_SKIP() << "no mpirun";
   const std::string whole = Unbroken();
   for (const char* ranks : {"2", "4"}) {
@@ -137,7 +137,7 @@ TEST_F(TrainingRuns, AnyNumberOfRanksWritesTheSameBytes) {
   }
 }
 
-TEST_F(TrainingRuns, KilledAndResumedWritesTheSameBytes) {
+TEST_F(TrainingRuns, WriteTheSameBytesWhenKilledAndResumed) {
   const std::string whole = Unbroken();
   for (const int after_ms : {60, 120, 200}) {
     test::RunningCommand run = test::StartOssa(Arguments("killed.ossa"));
@@ -149,8 +149,8 @@ TEST_F(TrainingRuns, KilledAndResumedWritesTheSameBytes) {
   EXPECT_EQ(BytesOf(folder_ / "killed.ossa"), whole);
 }
 
-// A script that runs several trainings was cut off behind this one: it took the hours again.
-TEST_F(TrainingRuns, WhatIsThereAlreadyOfTheSameDataIsNotMadeAgain) {
+// A script of several trainings that was interrupted after this one repeated it.
+TEST_F(TrainingRuns, SkipAFinishedModelOfTheSameData) {
   const std::string whole = Unbroken();
   const auto written = fs::last_write_time(folder_ / "whole.ossa");
   std::vector<std::string> words = Arguments("whole.ossa");
@@ -173,7 +173,7 @@ TEST_F(TrainingRuns, WhatIsThereAlreadyOfTheSameDataIsNotMadeAgain) {
 }
 
 // A shell's completion ends folders with a slash: the data set's name was not on the card.
-TEST_F(TrainingRuns, TheSameOptionsWrittenOtherwiseAreTheSameBytes) {
+TEST_F(TrainingRuns, WriteTheSameBytesForEquivalentOptions) {
   const std::string whole = Unbroken();
   const std::string out = folder_ / "otherwise.ossa";
   const CommandResult result =
@@ -186,8 +186,8 @@ TEST_F(TrainingRuns, TheSameOptionsWrittenOtherwiseAreTheSameBytes) {
   EXPECT_NE(info.find("no second stage, no joint-conditioned relabelling"), std::string::npos);
 }
 
-// What joints take came on top.
-TEST_F(TrainingRuns, TheFinishedModelFitsIntoTheMegabytes) {
+// The size of the proposals was not counted.
+TEST_F(TrainingRuns, KeepTheModelWithinTheSizeLimit) {
   const size_t limit = Unbroken().size() - 100;
   std::vector<std::string> words = Arguments("small.ossa");
   words.insert(words.end(), {"--max-megabytes", std::to_string(1e-6 * static_cast<double>(limit))});
@@ -196,7 +196,7 @@ TEST_F(TrainingRuns, TheFinishedModelFitsIntoTheMegabytes) {
   EXPECT_LE(fs::file_size(folder_ / "small.ossa"), limit);
 }
 
-TEST_F(TrainingRuns, ACheckpointThatIsThereOrNotIsSpokenOf) {
+TEST_F(TrainingRuns, ReportPresentAndMissingCheckpoints) {
   std::vector<std::string> words = Arguments("new.ossa");
   std::erase(words, "--quiet");
   EXPECT_NE(RunOssa(words).err.find("new.ossa.checkpoint: not there"), std::string::npos);
@@ -206,8 +206,8 @@ TEST_F(TrainingRuns, ACheckpointThatIsThereOrNotIsSpokenOf) {
             std::string::npos);
 }
 
-// Each run that is killed leaves one more, as large as a model.
-TEST_F(TrainingRuns, HalfCheckpointsOfRunsThatWereKilledGo) {
+// Each killed run leaves another, as large as a model.
+TEST_F(TrainingRuns, DeleteIncompleteCheckpointsOfKilledRuns) {
   for (const char* name : {"new.ossa.checkpoint", "new.ossa"}) {
     std::ofstream(folder_ / (std::string(name) + ".partial-00c0ffee0000")) << "half";
   }
@@ -217,8 +217,8 @@ TEST_F(TrainingRuns, HalfCheckpointsOfRunsThatWereKilledGo) {
   EXPECT_FALSE(fs::exists(folder_ / "new.ossa.partial-00c0ffee0000"));
 }
 
-// It went on to the end, whatever that took.
-TEST_F(TrainingRuns, InterruptedWhileJointsAreLearnedGoesOnFromTheTrees) {
+// Ctrl-C was ignored until the end.
+TEST_F(TrainingRuns, ResumeFromTheTreesWhenInterruptedWhileJointsAreLearned) {
   std::vector<std::string> words(500, data());  // seconds to read
   words.insert(words.begin(), "train");
   words.insert(words.end(), {"--out", (folder_ / "cut.ossa").string(), "--trees", "1", "--depth",
@@ -232,8 +232,8 @@ TEST_F(TrainingRuns, InterruptedWhileJointsAreLearnedGoesOnFromTheTrees) {
   EXPECT_FALSE(fs::exists(folder_ / "cut.ossa"));
 }
 
-// The joints of --refinement say of labels what the trees' classes are not: it was an abort.
-TEST_F(BadDataSet, AForestOfOtherClassesOrTargetsLearnsNothingOfOurLabels) {
+// --refinement needs classes that are our labels: other classes aborted the program.
+TEST_F(BadDataSet, AForestOfOtherClassesOrTargetsIsRefused) {
   std::ofstream(folder_ / "pcl.txt") << "1\n100 0 0 100 50\n3\n9\n";
   const auto import = [&](const char* out, std::vector<std::string> more) {
     more.insert(more.begin(), {"train", "--import-pcl", folder_ / "pcl.txt", "--quiet", "--out",
@@ -258,7 +258,7 @@ TEST_F(BadDataSet, AForestOfOtherClassesOrTargetsLearnsNothingOfOurLabels) {
 }
 
 // Terms with a path, of a data set rendered with --mocap FOLDER/cmu, were not on the card.
-TEST_F(BadDataSet, TermsOfMotionAreOnTheCardByTheNameOfItsFolder) {
+TEST_F(BadDataSet, CardNamesTermsOfMotionByItsFolder) {
   std::string manifest = BytesOf(data() + "/manifest.json");
   const std::string ours = "motion authored: ossa's own, MIT";
   ASSERT_NE(manifest.find(ours), std::string::npos);
@@ -272,8 +272,8 @@ TEST_F(BadDataSet, TermsOfMotionAreOnTheCardByTheNameOfItsFolder) {
             std::string::npos);
 }
 
-// The card said nothing of the data behind a relabelling that stays.
-TEST_F(BadDataSet, ACardKeepsTheDataOfTheRelabellingThatIsKept) {
+// The card left out the data of a kept relabelling.
+TEST_F(BadDataSet, CardKeepsTheDataOfAKeptRelabelling) {
   const std::string fresh = folder_ / "fresh", again = folder_ / "again.ossa";
   ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", fresh, "--frames", "80", "--size",
                      "96x72", "--quiet"})
@@ -296,14 +296,14 @@ TEST_F(BadDataSet, ACardKeepsTheDataOfTheRelabellingThatIsKept) {
   EXPECT_NE(kept.find("\"refinement_data\""), std::string::npos) << kept;
 }
 
-// They said that no image shows an object, and nothing at all.
-TEST_F(BadDataSet, TooFewImagesToHoldOutAreTold) {
+// The messages were "no image shows an object" and none.
+TEST_F(BadDataSet, TooFewImagesToHoldOutAreReported) {
   const CommandResult all_held = RunOssa({"train", data(), "--out", model(), "--quiet"});
   EXPECT_EQ(all_held.exit_status, 1);
   EXPECT_NE(all_held.err.find("--validation; found 4"), std::string::npos) << all_held.err;
 }
 
-TEST_F(TrainingRuns, ProposalsLearnedAgainForTheSameTreesAreTheSame) {
+TEST_F(TrainingRuns, RelearnTheSameProposalsForTheSameTrees) {
   const std::string whole = Unbroken();
   const auto again = [&](const std::string& trees_of, const std::string& out) {
     const CommandResult result =
@@ -319,7 +319,7 @@ TEST_F(TrainingRuns, ProposalsLearnedAgainForTheSameTreesAreTheSame) {
   EXPECT_EQ(again("whole.ossa", "twice.ossa"), once);
 }
 
-TEST(EvaluateCommand, ADamagedModelIsOneLine) {
+TEST(EvaluateCommand, ReportsADamagedModelInOneLine) {
   const test::TemporaryFolder folder;
   const fs::path model = folder.path() / "broken.ossa";
   std::ofstream(model) << "ossafrst and then nothing of use";
@@ -329,8 +329,8 @@ TEST(EvaluateCommand, ADamagedModelIsOneLine) {
   EXPECT_NE(result.err.find("broken.ossa"), std::string::npos) << result.err;
 }
 
-// After all the work it was told that the model cannot be written.
-TEST_F(TrainingRuns, EvaluatedForACardThatCannotBeWrittenAreToldAtOnce) {
+// The error came only after the evaluation.
+TEST_F(TrainingRuns, EvaluateReportsAnUnwritableReportAtStart) {
   Unbroken();
   // No path is left to write beside it under: the system takes 4095 bytes.
   fs::path deep = folder_.path();
@@ -344,8 +344,8 @@ TEST_F(TrainingRuns, EvaluatedForACardThatCannotBeWrittenAreToldAtOnce) {
   EXPECT_EQ(result.out, "");
 }
 
-// As of compare and track, --json - is stdout: it was a file of that name.
-TEST_F(TrainingRuns, EvaluatedToADashWriteNoFileOfThatName) {
+// --json - is stdout, as of compare and track; it wrote a file named "-".
+TEST_F(TrainingRuns, EvaluateWithADashWritesNoFileOfThatName) {
   Unbroken();
   const CommandResult result =
       test::RunProgram({"/bin/sh", "-c", R"(cd "$2" && "$1" evaluate whole.ossa "$3" --json -)",
@@ -355,8 +355,8 @@ TEST_F(TrainingRuns, EvaluatedToADashWriteNoFileOfThatName) {
   EXPECT_FALSE(fs::exists(folder_ / "-"));
 }
 
-// Not after the hours in which trees grow.
-TEST_F(BadDataSet, TooFewImagesForARefinementAreToldBeforeTreesGrow) {
+// Before the hours of tree training.
+TEST_F(BadDataSet, TooFewImagesForARefinementAreReportedBeforeTraining) {
   for (const std::string& fresh : {data(), std::string("/nowhere")}) {
     const CommandResult result =
         RunOssa({"train", data(), "--out", model(), "--trees", "1", "--depth", "3", "--validation",
@@ -368,22 +368,22 @@ TEST_F(BadDataSet, TooFewImagesForARefinementAreToldBeforeTreesGrow) {
   }
 }
 
-TEST_F(BadDataSet, NoModelIsWrittenOverWhatIsRead) {
+TEST_F(BadDataSet, OutputOverAnInputIsRefused) {
   const auto manifest = data() + "/manifest.json";
   EXPECT_EQ(RunOssa({"train", data(), "--out", manifest}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "--import-pcl", manifest, "--out", manifest}).exit_status, 2);
   EXPECT_TRUE(fs::file_size(manifest) > 0);
 }
 
-TEST(TrainCommand, WrongUsageIsStatusTwo) {
+TEST(TrainCommand, WrongUsageExitsWithTwo) {
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--trees", "0"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "--out", "x.ossa"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--depth", "99"}).exit_status, 2);
   EXPECT_EQ(RunOssa({"train", "d", "--out", "x.ossa", "--memory", "many"}).exit_status, 2);
 }
 
-// They were passed over: the model was another than was asked for.
-TEST(TrainCommand, OptionsOfTreesAreRefusedWhereNoneGrow) {
+// They were ignored: the model was not the requested one.
+TEST(TrainCommand, RefusesTreeOptionsWhenNoTreesAreTrained) {
   const std::vector<std::pair<std::string, std::string>> of_trees = {
       {"--trees", "2"},   {"--depth", "3"},           {"--candidates", "9"},
       {"--memory", "1G"}, {"--min-node-pixels", "5"}, {"--vote-depth", "3"}};
@@ -402,8 +402,8 @@ TEST(TrainCommand, OptionsOfTreesAreRefusedWhereNoneGrow) {
       2);
 }
 
-// It named the field of the C++ struct.
-TEST(TrainCommand, NumbersOutOfRangeAreToldByTheirOption) {
+// The message named the field of the C++ struct.
+TEST(TrainCommand, ReportsNumbersOutOfRangeByTheirOption) {
   const std::vector<std::pair<std::string, std::string>> beyond = {
       {"--node-pixels", "99"},    {"--min-node-pixels", "1"}, {"--refill-pixels", "-1"},
       {"--box", "2000"},          {"--offsets", "1"},         {"--min-gain", "-0.1"},
@@ -416,7 +416,7 @@ TEST(TrainCommand, NumbersOutOfRangeAreToldByTheirOption) {
   }
 }
 
-TEST_F(TrainingRuns, ACheckpointOfOtherOptionsNamesTheFirst) {
+TEST_F(TrainingRuns, NameTheFirstOptionThatDiffersFromACheckpoint) {
   std::vector<std::string> words = Arguments("cut.ossa");
   words.insert(words.end(), {"--candidates", "20000"});  // so many that it does not end meanwhile
   test::RunningCommand run = test::StartOssa(words);

@@ -52,7 +52,7 @@ TEST(ViewCommand, CtrlCEndsIt) {
   EXPECT_FALSE(command.Wait(test::kCommandTimeout).timed_out);
 }
 
-TEST(ViewCommand, SaysThatItsCameraIsUnplugged) {
+TEST(ViewCommand, ReportsAnUnpluggedCamera) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 3);
   auto command =
@@ -62,8 +62,8 @@ TEST(ViewCommand, SaysThatItsCameraIsUnplugged) {
   EXPECT_FALSE(command.Wait(test::kCommandTimeout).timed_out);
 }
 
-// It began anew without end: a second of processor time would be used up at once.
-TEST(ViewCommand, ARecordingOfOneFrameIsShownAtItsLeisure) {
+// It restarted playback in a busy loop, which uses up a second of processor time at once.
+TEST(ViewCommand, DoesNotBusyLoopOverARecordingOfOneFrame) {
   const TemporaryFolder folder;
   std::ofstream(folder / "one.jsonl") << R"({"frame":0,"time_s":0,"bodies":[]})"
                                       << "\n";
@@ -74,7 +74,7 @@ TEST(ViewCommand, ARecordingOfOneFrameIsShownAtItsLeisure) {
   EXPECT_EQ(result.exit_status, kEndedByTimeout) << result.err;
 }
 
-TEST(ViewCommand, APortThatIsTakenIsOneLine) {
+TEST(ViewCommand, ReportsAPortInUseInOneLine) {
   const TemporaryFolder folder;
   WriteSkeletons(folder / "x.jsonl");
   viewer::ViewerOptions any;
@@ -87,8 +87,8 @@ TEST(ViewCommand, APortThatIsTakenIsOneLine) {
   EXPECT_NE(result.err.find(std::to_string(taken.port())), std::string::npos);
 }
 
-// Whoever watches learned it when they pressed the button.
-TEST(ViewCommand, WhereNothingCanBeRecordedIsSaidBeforeAnythingIsShown) {
+// The error appeared only when the record button was pressed.
+TEST(ViewCommand, ReportsAnUnwritableRecordingFolderAtStart) {
   const TemporaryFolder folder;
   WriteSkeletons(folder / "x.jsonl");
   const CommandResult result = RunOssa({"view", (folder / "x.jsonl").string(), "--once", "--port",
@@ -98,7 +98,7 @@ TEST(ViewCommand, WhereNothingCanBeRecordedIsSaidBeforeAnythingIsShown) {
   EXPECT_NE(result.err.find("nowhere"), std::string::npos) << result.err;
 }
 
-TEST(ViewCommand, WhatIsNoSkeletonFileIsNamed) {
+TEST(ViewCommand, NamesAFileWithoutSkeletons) {
   const TemporaryFolder folder;
   std::ofstream(folder / "x.jsonl") << "not json\n";
   const CommandResult result =
@@ -111,7 +111,7 @@ TEST(ViewCommand, WhatIsNoSkeletonFileIsNamed) {
   EXPECT_EQ(RunOssa({"view", folder.path().string(), "--camera", "wide"}).exit_status, 2);
 }
 
-TEST(ViewCommand, OfSkeletonsWhatIsForTrackingIsSaidToBe) {
+TEST(ViewCommand, ReportsTrackingOptionsGivenForASkeletonFile) {
   const TemporaryFolder folder;
   WriteSkeletons(folder / "x.jsonl");
   const CommandResult result =
@@ -122,14 +122,14 @@ TEST(ViewCommand, OfSkeletonsWhatIsForTrackingIsSaidToBe) {
       << result.err;
 }
 
-TEST(ViewCommand, AMethodThatLearnsNeedsWhatWasLearned) {
+TEST(ViewCommand, RefusesALearnedMethodWithoutItsFile) {
   const TemporaryFolder folder;
   const CommandResult result = RunOssa({"view", folder.path().string(), "--method", "full-gp"});
   EXPECT_EQ(result.exit_status, 2);
   EXPECT_NE(result.err.find("--learned"), std::string::npos) << result.err;
 }
 
-TEST(ViewCommand, TakesTheModelsAndTheMountThatTrackTakes) {
+TEST(ViewCommand, AcceptsTheModelAndMountOptionsOfTrack) {
   const TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 1);
   const std::string images = folder.path().string();
@@ -143,7 +143,7 @@ TEST(ViewCommand, TakesTheModelsAndTheMountThatTrackTakes) {
   EXPECT_EQ(RunOssa({"view", images, "--port", "0", "--once", "--mount", "level"}).exit_status, 0);
 }
 
-/// What the page of this port answers to GET `target`.
+/// The answer of the page at this port to GET `target`.
 std::string Get(const std::string& port, const std::string& target) {
   const char* get =
       R"(exec 3<>/dev/tcp/127.0.0.1/$1; printf 'GET %s HTTP/1.0\r\nHost: 127.0.0.1\r\n\r\n' "$2")"
@@ -157,7 +157,7 @@ std::string FreePort() {
   return std::to_string(viewer::Viewer(any).port());
 }
 
-/// The page of `ossa view` with these arguments, and what was said.
+/// The page of `ossa view` with these arguments, and the text on stderr.
 std::pair<int, std::string> SkinOf(std::vector<std::string> arguments) {
   const std::string port = FreePort();
   arguments.insert(arguments.begin(), "view");
@@ -169,8 +169,8 @@ std::pair<int, std::string> SkinOf(std::vector<std::string> arguments) {
   return {bytes, command.Wait(test::kCommandTimeout).err};
 }
 
-// Of a body of one's own, and of skeletons: a .glb that the page exports is dressed, too.
-TEST(ViewCommand, BodiesWearTheSkinThatIsNamed) {
+// Of a custom body, and of a skeleton file: a .glb exported by the page has the mesh, too.
+TEST(ViewCommand, ShowsBodiesWithTheNamedSkin) {
   const TemporaryFolder folder;
   WriteSkeletons(folder / "x.jsonl");
   const std::string skeletons = folder / "x.jsonl";
@@ -210,7 +210,7 @@ std::string SkeletonsShown(const std::string& images, int frames,
   return lines;
 }
 
-TEST(ViewCommand, FitsABodyOrNoneToWhomItIsToldOf) {
+TEST(ViewCommand, FitOptionsChangeTheShownSkeletons) {
   OSSA_NEEDS_MODEL();
   const TemporaryFolder folder;
   constexpr int kFrames = 3;
@@ -226,7 +226,7 @@ TEST(ViewCommand, FitsABodyOrNoneToWhomItIsToldOf) {
   EXPECT_NE(SkeletonsShown(images, kFrames, {"--person", me}), usual);
 }
 
-TEST(ViewCommand, AFitThatCannotBeIsRefusedAsByTrack) {
+TEST(ViewCommand, RefusesImpossibleFitsLikeTrack) {
   const auto refused = [](std::vector<std::string> words) {
     words.insert(words.begin(), {"view", "in"});
     const CommandResult result = RunOssa(words);
@@ -241,7 +241,7 @@ TEST(ViewCommand, AFitThatCannotBeIsRefusedAsByTrack) {
             std::string::npos);
 }
 
-TEST(ViewCommand, AStillIsASource) {
+TEST(ViewCommand, AcceptsASingleImageAsSource) {
   const TemporaryFolder folder;
   std::ofstream(folder / "still.png") << "no image\n";
   const CommandResult result =

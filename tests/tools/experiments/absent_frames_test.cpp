@@ -12,7 +12,7 @@ namespace {
 using recon::SkeletonFrame;
 using recon::SkeletonSequence;
 
-// Somebody who stands still.
+// A person who stands still.
 SkeletonSequence Standing(int frames, double step_s) {
   recon::BodyRecord body;
   body.id = 1;
@@ -43,7 +43,7 @@ double Missing(const SkeletonSequence& truth, const SkeletonSequence& result,
 
 constexpr double kStep_s = 1 / 30.0;
 
-TEST(AbsentFrames, CountAsMissedAtTheEndsAndBetween) {
+TEST(AbsentFrames, CountAsMissedAtBothEndsAndBetween) {
   const auto truth = Standing(60, kStep_s);
   const auto result =
       Kept(truth, [](int64_t f) { return f >= 6 && f < 54 && (f < 20 || f >= 32); });
@@ -55,8 +55,8 @@ TEST(AbsentFrames, CountAsMissedAtTheEndsAndBetween) {
   EXPECT_EQ(*metrics.mean_joint_error_cm, 0);
 }
 
-// A frame that is not there and one in which nobody is cost the same.
-TEST(AbsentFrames, CountAsFramesInWhichNobodyIs) {
+// An absent frame and a frame without bodies count the same.
+TEST(AbsentFrames, CountAsFramesWithoutBodies) {
   const auto truth = Standing(60, kStep_s);
   const auto is_hard = [](int64_t f) { return f % 7 > 3; };
   auto empty = truth;
@@ -67,42 +67,42 @@ TEST(AbsentFrames, CountAsFramesInWhichNobodyIs) {
   EXPECT_DOUBLE_EQ(Missing(truth, absent), Missing(truth, empty));
 }
 
-TEST(AbsentFrames, AreNoneWhereTheResultIsSlowerOrFasterThanTheTruth) {
+TEST(AbsentFrames, AreZeroForAResultOfAnotherFrameRate) {
   const auto truth = Standing(61, kStep_s);
   EXPECT_EQ(Missing(truth, Kept(truth, [](int64_t f) { return f % 3 == 0; })), 0);
   EXPECT_EQ(Missing(truth, Standing(121, kStep_s / 2)), 0);
 }
 
-// A motion capture of 100 Hz beside a camera of 30 Hz that loses two seconds of six.
-TEST(AbsentFrames, AreAsManyAsTheResultWouldHaveHad) {
+// Motion capture at 100 Hz and a camera of 30 Hz that loses two seconds of six.
+TEST(AbsentFrames, AreCountedAtTheFrameRateOfTheResult) {
   const auto truth = Standing(601, 0.01);
   const auto result = Kept(Standing(181, kStep_s), [](int64_t f) { return f < 60 || f >= 120; });
   EXPECT_DOUBLE_EQ(Missing(truth, result, {.time = TimeAlignment::kNone}), 60.0 / 181);
 }
 
-TEST(AbsentFrames, AreNotDueWhereTheTruthIsNotKnown) {
+TEST(AbsentFrames, AreNotCountedWhereTheTruthIsUnknown) {
   const auto all = Standing(90, kStep_s);
   const auto hidden = [](int64_t f) { return f < 30 || f >= 60; };
   EXPECT_EQ(Missing(Kept(all, hidden), Kept(all, hidden)), 0);
   EXPECT_DOUBLE_EQ(Missing(Kept(all, hidden), Kept(all, [](int64_t f) { return f < 30; })), 0.5);
 }
 
-// Two devices are seldom started and stopped together.
-TEST(AbsentFrames, AreNotDueAtTheEndsOfAnotherClock) {
+// Two devices rarely start and stop together.
+TEST(AbsentFrames, AreNotCountedAtTheEndsOfAnotherClock) {
   const auto truth = Standing(90, kStep_s);
   auto result = Kept(truth, [](int64_t f) { return f < 60; });
   for (auto& frame : result.frames) frame.time_s += 1000.01;
   EXPECT_EQ(Missing(truth, result), 0);
 }
 
-TEST(AbsentFrames, OfAResultOfSomethingElseAreNotAdded) {
+TEST(AbsentFrames, AreNotAddedToAResultOfAnotherTime) {
   const auto truth = Standing(30, kStep_s);
   auto later = truth;
   for (auto& frame : later.frames) frame.time_s += 1000;
   EXPECT_TRUE(PairUp(truth, later, {.time = TimeAlignment::kNone}).at(0).time_s.empty());
 }
 
-TEST(AbsentFrames, CountForEachOfSeveralPeople) {
+TEST(AbsentFrames, AreCountedPerPerson) {
   auto truth = Standing(60, kStep_s);
   for (auto& frame : truth.frames) {
     auto other = frame.bodies[0];
@@ -117,7 +117,7 @@ TEST(AbsentFrames, CountForEachOfSeveralPeople) {
 }
 
 // Damaged times: thirty years between two frames are not filled.
-TEST(AbsentFrames, AreNoMoreThanTheTruthHas) {
+TEST(AbsentFrames, AreAtMostTheFramesOfTheTruth) {
   auto truth = Standing(30, kStep_s);
   auto result = truth;
   truth.frames.back().time_s = 1e9;

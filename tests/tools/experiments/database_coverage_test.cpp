@@ -22,7 +22,7 @@ RecordedPair Recorded(const recon::Posture& in_camera) {
   return {"s01/m07_s01_e01", "s01", {"", {{0, 0.0, {}, {body}}}}, {}};
 }
 
-TEST(CoverageTable, FindsAPostureWhereverThePersonStandsAndHoweverTallItIs) {
+TEST(CoverageTable, FindsAPostureAtAnyPlaceAndBodyHeight) {
   const recon::Posture tall = recon::Scaled(recon::StandardStance(), 1.2);
   const auto table = CoverageTable(
       OneStandingPosture(), {Recorded(recon::Placed(tall, {{0.4, 0.2, 3.0}, std::numbers::pi}))});
@@ -31,9 +31,9 @@ TEST(CoverageTable, FindsAPostureWhereverThePersonStandsAndHoweverTallItIs) {
   EXPECT_EQ(table.rows[1][2], "0.00");
 }
 
-TEST(CoverageTable, MeasuresTheMeanOverJointsOfWhatIsLacking) {
+TEST(CoverageTable, MeasuresTheMeanJointDistanceToTheNearestPosture) {
   recon::Posture raised = recon::StandardStance();
-  // A hand turned about the wrist: of the bone's length the other way.
+  // A hand rotated by 180 degrees about the wrist moves by twice the length of its bone.
   const recon::Joint hand = recon::Joint::kHandLeft, wrist = recon::Joint::kWristLeft;
   const double bone_m = (raised[hand] - raised[wrist]).norm();
   raised[hand] = 2.0 * raised[wrist] - raised[hand];

@@ -30,7 +30,7 @@ recon::JointRecord& At(recon::SkeletonSequence& sequence, size_t frame, Joint jo
   return *sequence.frames[frame].bodies[0].joints[joint];
 }
 
-TEST(GrossFailures, OfAPersonStandingStillAreNone) {
+TEST(GrossFailures, AreZeroForAPersonStandingStill) {
   const auto still = Still(10);
   const GrossFailures found = CountGrossFailures(still, still, still);
   EXPECT_EQ(found.frames, 10);
@@ -38,7 +38,7 @@ TEST(GrossFailures, OfAPersonStandingStillAreNone) {
   EXPECT_EQ(found.jitter_cm, 0.0);
 }
 
-TEST(GrossFailures, AreCountedWhereAHandFallsOntoTheOtherForOneFrame) {
+TEST(GrossFailures, CountAHandThatJumpsOntoTheOtherForOneFrame) {
   auto sequence = Still(10);
   auto& hand = At(sequence, 5, Joint::kHandLeft);
   hand.position_m = At(sequence, 5, Joint::kHandRight).position_m;
@@ -54,7 +54,7 @@ TEST(GrossFailures, AreCountedWhereAHandFallsOntoTheOtherForOneFrame) {
   EXPECT_GT(found.jitter_cm, 0.0);
 }
 
-TEST(GrossFailures, AreNotLookedForAcrossGapsInTime) {
+TEST(GrossFailures, AreNotCountedAcrossGapsInTime) {
   auto sequence = Still(10);
   for (size_t f = 5; f < 10; ++f) {
     sequence.frames[f].time_s += 1.0;
@@ -65,19 +65,19 @@ TEST(GrossFailures, AreNotLookedForAcrossGapsInTime) {
   EXPECT_EQ(found.jitter_cm, 0.0);
 }
 
-// What a method has put where the sensor saw nothing can be wrong as well.
-TEST(GrossFailures, AreCountedOfWhatIsPlacedUnseen) {
+// A joint that a method has placed without an observation can be wrong as well.
+TEST(GrossFailures, CountPlacedJointsThatAreNotTracked) {
   auto sequence = Still(10);
   auto& hand = At(sequence, 5, Joint::kHandLeft);
   hand.state = recon::TrackingState::kNotTracked;
   hand.position_m.y() += 0.5;
   EXPECT_EQ(CountGrossFailures(sequence, sequence, Still(10)).wrong_bones, 1);
-  hand.reliability.reset();  // a sensor's word for nowhere
+  hand.reliability.reset();  // of a sensor: no position
   EXPECT_EQ(CountGrossFailures(sequence, sequence, Still(10)).wrong_bones, 0);
 }
 
-// A method that stretches a bone for good has it wrong, however constant it is.
-TEST(GrossFailures, MeasureBonesByWhatTheSensorSaid) {
+// A bone that a method stretches in every frame is wrong, even if its length is constant.
+TEST(GrossFailures, CompareBonesWithThoseOfTheSensor) {
   const auto recording = Still(10);
   auto made = recording;
   for (size_t f = 0; f < 10; ++f) {

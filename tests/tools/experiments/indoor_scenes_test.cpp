@@ -14,20 +14,20 @@
 namespace ossa::tools {
 namespace {
 
-TEST(RunJobs, DoesEachJobOnce) {
+TEST(RunJobs, RunsEachJobOnce) {
   std::vector<std::atomic<int>> done(40);
   RunJobs(done.size(), 3, [&](size_t i) { ++done[i]; });
   for (const auto& count : done) EXPECT_EQ(count, 1);
 }
 
-TEST(RunJobs, ThrowsWhatAJobThrew) {
+TEST(RunJobs, RethrowsTheExceptionOfAJob) {
   const auto fail = [](size_t i) {
     if (i == 5) throw std::runtime_error("five");
   };
   EXPECT_THROW(RunJobs(40, 2, fail), std::runtime_error);
 }
 
-// Small pictures of everybody in authored motion.
+// Small images of all people in authored motion.
 class InIndoorScenes : public testing::Test {
  protected:
   void SetUp() override {
@@ -46,7 +46,7 @@ class InIndoorScenes : public testing::Test {
   std::unique_ptr<recon::Wardrobe> wardrobe_;
 };
 
-TEST_F(InIndoorScenes, SameSeedSameFramesWithEverybodyInThem) {
+TEST_F(InIndoorScenes, SameSeedGivesSameFramesWithAllPeople) {
   const IndoorCast cast = Cast();
   const IndoorScenario scenario{"two", 2, Furnishing::kFurnished};
   const LabelledFrame first = IndoorStage(scenario, cast, 3).Shoot(1);
@@ -57,7 +57,7 @@ TEST_F(InIndoorScenes, SameSeedSameFramesWithEverybodyInThem) {
 }
 
 // Without the sofa the same seed has the same person before the same sensor.
-TEST_F(InIndoorScenes, ASofaBeforeHidesAThirdOfThePersonOrMore) {
+TEST_F(InIndoorScenes, SofaInFrontHidesAtLeastAThirdOfThePerson) {
   const IndoorCast cast = Cast();
   for (const uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
     const auto seen = [&](Furnishing furnishing) {
@@ -70,7 +70,7 @@ TEST_F(InIndoorScenes, ASofaBeforeHidesAThirdOfThePersonOrMore) {
   }
 }
 
-// Somebody 2 m away who is alone in a small picture, found and tracked as they are.
+// One person 2 m away in a small image, tracked exactly at the truth.
 struct OnePerson {
   OnePerson() {
     constexpr int kWidth = 80, kHeight = 60;
@@ -102,8 +102,8 @@ struct OnePerson {
   tracker::BodyFrame answer;
 };
 
-// Every second joint is unseen and said to be a metre off.
-TEST(IndoorJudge, SeenJointsAreJudgedBesideAll) {
+// Every second joint is hidden and estimated a metre off.
+TEST(IndoorJudge, ScoresVisibleJointsBesideAllJoints) {
   OnePerson one;
   for (size_t j = 1; j < recon::kJointCount; j += 2) {
     one.person().visible[j] = false;
@@ -115,9 +115,8 @@ TEST(IndoorJudge, SeenJointsAreJudgedBesideAll) {
   EXPECT_DOUBLE_EQ(Measure(score.raw_seen).map_10cm.value(), 1.0);
 }
 
-// Joints that the forest did not find are missing of raw, but final has put them somewhere and is
-// judged for it.
-TEST(IndoorJudge, WhatIsPlacedUnseenIsJudged) {
+// Joints that the forest did not find are missing in raw; final has placed them and is scored.
+TEST(IndoorJudge, ScoresPlacedJointsThatAreNotTracked) {
   OnePerson one;
   for (size_t j = 1; j < recon::kJointCount; j += 2) {
     one.body().raw.state[j] = one.body().joints[j].state = recon::TrackingState::kNotTracked;

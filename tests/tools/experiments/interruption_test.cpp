@@ -1,4 +1,4 @@
-// Ctrl-C is asked for between short steps, and ends the work there.
+// Ctrl-C is checked between short steps, and ends the work there.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ void WriteClips(const std::filesystem::path& folder) {
   }
 }
 
-// The user presses Ctrl-C before the question of this number is asked.
+// Ctrl-C comes before the check of this number.
 class CtrlC {
  public:
   explicit CtrlC(int before) : before_(before) {}
@@ -57,8 +57,8 @@ TEST(Interruption, EndsAComparisonAtTheNextClip) {
   }
 }
 
-// Of one clip: what is long is the search for its clock.
-TEST(Interruption, EndsTheSearchForAClock) {
+// One clip: most of the time is spent in the search for its clock offset.
+TEST(Interruption, EndsTheSearchForAClockOffset) {
   const test::TemporaryFolder folder;
   recon::WriteSkeletons(folder / "a.jsonl", recon::ExampleSequence(90));
   CompareOptions options;
@@ -95,7 +95,7 @@ TEST(Interruption, EndsTheReadingOfMocap) {
   EXPECT_TRUE(recon::LoadMocap({folder.path().string()}, options).empty());
 }
 
-TEST(Interruption, EndsThePicturesOfTheBodyAtTheNextOne) {
+TEST(Interruption, EndsTheBodyStudyAtTheNextPicture) {
   if (!std::filesystem::exists(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   CtrlC key(2);

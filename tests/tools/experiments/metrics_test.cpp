@@ -55,7 +55,7 @@ ClipMetrics MeasureOne(const SkeletonSequence& truth, const SkeletonSequence& re
   return Measure(pairs.at(0));
 }
 
-TEST(Metrics, OfThePerfectResultAreZero) {
+TEST(Metrics, AreZeroForAPerfectResult) {
   const auto truth = Swinging(30, 1 / 30.0);
   const ClipMetrics m = MeasureOne(truth, truth);
   EXPECT_EQ(m.frames, 30);
@@ -67,7 +67,7 @@ TEST(Metrics, OfThePerfectResultAreZero) {
   EXPECT_EQ(*m.acceleration_error_cm_per_frame2, 0);
 }
 
-TEST(Metrics, OfAShiftedResultAreTheShiftAndNothingRelativeToParents) {
+TEST(Metrics, OfAShiftedResultAreTheShiftAndZeroRelativeToParents) {
   const auto truth = Swinging(30, 1 / 30.0);
   const auto result = Changed(truth, [](size_t, Joint, auto& joint) {
     joint->position_m += Eigen::Vector3d(0.03, 0, 0.04);
@@ -81,7 +81,7 @@ TEST(Metrics, OfAShiftedResultAreTheShiftAndNothingRelativeToParents) {
 }
 
 // One hand 30 cm off: eq. 18 sees it in one bone of 19, the mean in one joint of 20.
-TEST(Metrics, OfOneWrongHandAreHandComputed) {
+TEST(Metrics, OfOneWrongHandEqualTheClosedForm) {
   const auto truth = Swinging(10, 1 / 30.0);
   const auto result = Changed(truth, [](size_t, Joint j, auto& joint) {
     if (j == Joint::kHandLeft) joint->position_m.x() += 0.3;
@@ -95,7 +95,7 @@ TEST(Metrics, OfOneWrongHandAreHandComputed) {
 }
 
 // A wrist that jumps 20 cm up and down every frame: its second difference is 80 cm, over 20 joints.
-TEST(Metrics, OfAJitteringWristAreHandComputed) {
+TEST(Metrics, OfAJitteringWristEqualTheClosedForm) {
   const auto truth = Swinging(20, 1 / 30.0);
   const auto result = Changed(truth, [](size_t f, Joint j, auto& joint) {
     if (j == Joint::kWristRight) joint->position_m.y() += f % 2 == 0 ? 0.2 : 0.0;
@@ -108,7 +108,7 @@ TEST(Metrics, OfAJitteringWristAreHandComputed) {
   EXPECT_NEAR(*m.parent_relative_error_cm, 2 * 20.0 / 19 / 2, kExact);
 }
 
-TEST(Metrics, CountFramesWhoseParentRelativeErrorIsTwentyCentimetres) {
+TEST(Metrics, CountFramesWhoseParentRelativeErrorIsOverTwentyCentimetres) {
   const auto truth = Swinging(10, 1 / 30.0);
   // Every joint 21 cm further from its parent than it is: eq. 13 is 21 cm in three frames of ten.
   const auto result = Changed(truth, [](size_t f, Joint j, auto& joint) {
@@ -120,7 +120,7 @@ TEST(Metrics, CountFramesWhoseParentRelativeErrorIsTwentyCentimetres) {
   EXPECT_NEAR(*MeasureOne(truth, result).fraction_frames_over_20cm, 0.3, kExact);
 }
 
-TEST(Metrics, AMissingJointIsNotFoundButNoError) {
+TEST(Metrics, MissingJointCountsAsNotFoundAndInNoMean) {
   const auto truth = Swinging(10, 1 / 30.0);
   const auto result = Changed(truth, [](size_t f, Joint j, auto& joint) {
     if (j == Joint::kHead && f < 5) joint.reset();
@@ -135,8 +135,8 @@ TEST(Metrics, AMissingJointIsNotFoundButNoError) {
   EXPECT_EQ(*m.parent_relative_error_cm, 0);
 }
 
-// The state says that the sensor did not see it, the reliability that a method has placed it.
-TEST(Metrics, AJointThatIsPlacedUnseenIsJudged) {
+// State not_tracked: the sensor did not see it; a reliability: a method has placed it.
+TEST(Metrics, PlacedJointThatIsNotTrackedIsScored) {
   const auto truth = Swinging(30, 1 / 30.0);
   const auto result = Changed(truth, [](size_t, Joint j, auto& joint) {
     if (j != Joint::kHandLeft) return;
@@ -163,7 +163,7 @@ TEST(AveragePrecision, RanksByConfidence) {
   EXPECT_NEAR(*MeasureOne(truth, result).map_10cm, (1 + 2 / 3.0 + 3 / 4.0) / 4, kExact);
 }
 
-TEST(BoneVariation, IsTheDeviationOverTheMean) {
+TEST(BoneVariation, IsTheStandardDeviationOverTheMean) {
   const auto truth = Swinging(10, 1 / 30.0);
   auto result = Changed(truth, [](size_t f, Joint j, auto& joint) {
     joint->position_m = {0, 0, 2};
@@ -173,7 +173,7 @@ TEST(BoneVariation, IsTheDeviationOverTheMean) {
   EXPECT_NEAR(*MeasureOne(truth, result).bone_length_variation_percent, 10, 1e-6);
 }
 
-TEST(RigidAlignment, UndoesATurnAndAShift) {
+TEST(RigidAlignment, RecoversARotationAndATranslation) {
   const auto truth = Swinging(30, 1 / 30.0);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
@@ -214,7 +214,7 @@ TEST(TimeAlignment, FindsTheOffsetOfAnotherClockAndRate) {
 }
 
 // The result's frames fall between the truth's, and it begins when the truth has run for long.
-TEST(TimeAlignment, FindsThatTheClocksAreOneHoweverLateTheResultBegins) {
+TEST(TimeAlignment, FindsThatClocksAgreeWhenTheResultBeginsLate) {
   const auto truth = Swinging(300, 1 / 30.0);
   auto result = Swinging(600, 1 / 60.0);
   std::erase_if(result.frames, [](const auto& frame) {
@@ -243,13 +243,13 @@ SkeletonSequence Squat(double step_s, double noise_m) {
   return squat;
 }
 
-TEST(TimeAlignment, DoesNotTakeHalfAMovementForTheOtherHalf) {
+TEST(TimeAlignment, DoesNotConfuseTheHalvesOfASymmetricMovement) {
   const auto pairs = PairUp(Squat(0.01, 0.0), Squat(1 / 30.0, 0.003));
   EXPECT_FALSE(pairs.at(0).same_clock);
   EXPECT_NEAR(pairs.at(0).offset_s, 0.0, 0.05);
 }
 
-TEST(TimeAlignment, LeavesALagInPlaceWhenTheFrameTimesAgree) {
+TEST(TimeAlignment, KeepsALagWhenFrameTimesAgree) {
   const auto truth = Swinging(90, 1 / 30.0);
   auto late = truth;
   for (size_t f = late.frames.size() - 1; f > 0; --f) {
@@ -271,7 +271,7 @@ TEST(TimeAlignment, DoesNotInterpolateAcrossAGap) {
   EXPECT_EQ(MeasureOne(truth, result, options).frames, 40);
 }
 
-TEST(SeveralPeople, AreMatchedByPlaceNotById) {
+TEST(SeveralPeople, AreMatchedByPositionNotById) {
   auto truth = Swinging(10, 1 / 30.0);
   auto result = truth;
   for (size_t f = 0; f < truth.frames.size(); ++f) {
@@ -289,7 +289,7 @@ TEST(SeveralPeople, AreMatchedByPlaceNotById) {
   for (const auto& pair : pairs) EXPECT_EQ(*Measure(pair).mean_joint_error_cm, 0);
 }
 
-// One person, and in every third frame a body that is not there.
+// One person, and a false body in every third frame.
 SkeletonSequence WithGhosts(SkeletonSequence sequence) {
   for (size_t f = 0; f < sequence.frames.size(); f += 3) {
     BodyRecord ghost = sequence.frames[f].bodies[0];
@@ -301,7 +301,7 @@ SkeletonSequence WithGhosts(SkeletonSequence sequence) {
   return sequence;
 }
 
-TEST(OnePerson, IsTheSamePairWithAndWithoutAGhost) {
+TEST(OnePerson, IsPairedEquallyWithAndWithoutAFalseBody) {
   const auto truth = Swinging(30, 1 / 30.0);
   const auto pairs = PairUp(truth, WithGhosts(truth));
   ASSERT_EQ(pairs.size(), 1u);
@@ -310,7 +310,7 @@ TEST(OnePerson, IsTheSamePairWithAndWithoutAGhost) {
   EXPECT_EQ(*Measure(pairs[0]).mean_joint_error_cm, 0);
 }
 
-TEST(OnePerson, IsFoundOnAnotherClockWithAndWithoutAGhost) {
+TEST(OnePerson, IsPairedOnAnotherClockWithAndWithoutAFalseBody) {
   const auto truth = Swinging(150, 1 / 30.0);
   auto result = truth;
   for (auto& frame : result.frames) frame.time_s += 100.013;
@@ -322,7 +322,7 @@ TEST(OnePerson, IsFoundOnAnotherClockWithAndWithoutAGhost) {
 }
 
 // Two people, whose clock is half a second late.
-TEST(SeveralPeople, AreComparedAtTheTimesAskedFor) {
+TEST(SeveralPeople, AreComparedAtTheRequestedTimes) {
   auto truth = Swinging(90, 1 / 30.0);
   for (auto& frame : truth.frames) {
     auto other = frame.bodies[0];
@@ -346,7 +346,7 @@ TEST(SeveralPeople, AreComparedAtTheTimesAskedFor) {
   EXPECT_NEAR(PairUp(truth, late, {.time = TimeAlignment::kCorrelate})[0].offset_s, -0.5, 0.02);
 }
 
-// Two people beside each other, of whom the second does backwards what the first does.
+// Two people beside each other, the second moving in reverse.
 SkeletonSequence TwoPeople() {
   auto two = Swinging(90, 1 / 30.0);
   const auto one = two;
@@ -368,8 +368,8 @@ SkeletonSequence MovedBy(const Eigen::Isometry3d& to_from, SkeletonSequence sequ
   return sequence;
 }
 
-// Seen from behind, where each of the two stands on the other's place.
-TEST(SeveralPeople, AreToldApartInACommonSpaceWhereTheResultIsInAnother) {
+// Seen from behind, where the two have exchanged places.
+TEST(SeveralPeople, AreMatchedAfterRigidAlignmentOfAResultInAnotherSpace) {
   const auto truth = TwoPeople();
   const Eigen::Isometry3d behind = Eigen::Translation3d(4.9, 0.0, 4.0) *
                                    Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY()) *
@@ -379,9 +379,9 @@ TEST(SeveralPeople, AreToldApartInACommonSpaceWhereTheResultIsInAnother) {
   for (const auto& pair : pairs) EXPECT_NEAR(*Measure(pair).mean_joint_error_cm, 0, 1e-6);
 }
 
-TEST(OnePerson, IsNotTakenForAGhostWhereTheResultIsInAnotherSpace) {
+TEST(OnePerson, IsPairedWithAFalseBodyPresentInAnotherSpace) {
   const auto truth = Swinging(90, 1 / 30.0);
-  auto haunted = truth;  // by one who holds still
+  auto haunted = truth;  // a false body that stands still
   for (auto& frame : haunted.frames) {
     BodyRecord ghost = truth.frames[0].bodies[0];
     ghost.id = 7;
@@ -392,7 +392,7 @@ TEST(OnePerson, IsNotTakenForAGhostWhereTheResultIsInAnotherSpace) {
   EXPECT_NEAR(*Measure(pairs.at(0)).mean_joint_error_cm, 0, 1e-6);
 }
 
-TEST(MeanOverClips, CountsAShortClipAsMuchAsALongOne) {
+TEST(MeanOverClips, WeighsShortAndLongClipsEqually) {
   ClipMetrics one;
   one.frames = 10;
   one.mean_joint_error_cm = 2;
@@ -407,7 +407,7 @@ TEST(MeanOverClips, CountsAShortClipAsMuchAsALongOne) {
   EXPECT_FALSE(mean.p99_cm.has_value());
 }
 
-TEST(SharedValues, AreThoseOfClipsOfWhichEveryResultHasTheNumber) {
+TEST(SharedValues, AreOfClipsForWhichEveryResultHasAValue) {
   const auto clip = [](const char* name, std::optional<double> error_cm) {
     ClipMetrics metrics;
     metrics.name = name;

@@ -11,7 +11,7 @@ namespace ossa::tools {
 namespace {
 
 // RFC 4648, section 10.
-TEST(Base64, IsThatOfTheStandard) {
+TEST(Base64, MatchesTheStandard) {
   EXPECT_EQ(Base64(""), "");
   EXPECT_EQ(Base64("f"), "Zg==");
   EXPECT_EQ(Base64("fo"), "Zm8=");
@@ -19,7 +19,7 @@ TEST(Base64, IsThatOfTheStandard) {
   EXPECT_EQ(Base64("foobar"), "Zm9vYmFy");
 }
 
-TEST(ExperimentPage, PlotsTheColumnsThatAreNumbers) {
+TEST(ExperimentPage, PlotsNumericColumns) {
   const test::TemporaryFolder folder;
   const Table table{"Errors",
                     {"method", "cm", "source"},
@@ -31,7 +31,7 @@ TEST(ExperimentPage, PlotsTheColumnsThatAreNumbers) {
   EXPECT_NE(page.find("&lt;b&gt;"), std::string::npos);
 }
 
-TEST(ExperimentPage, HoldsTheFiguresThatLieBesideIt) {
+TEST(ExperimentPage, EmbedsTheFiguresBesideIt) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "curve.svg") << "foo";
   std::ofstream(folder / "notes.txt") << "foobar";

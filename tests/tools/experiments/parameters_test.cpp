@@ -48,7 +48,7 @@ class StudyParameters : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(StudyParameters, AreReadOrTakeTheirUsualValueAndCanBeReadAgain) {
+TEST_F(StudyParameters, AreReadWithDefaultsAndSurviveARoundTrip) {
   Parameters p = From("samples = 7\nmethods = [\"none\", \"best\"]\nsizes = [1, 2.5]\n");
   EXPECT_EQ(p.Integer("samples", 100), 7);
   EXPECT_EQ(p.Texts("methods", {}).size(), 2u);
@@ -60,7 +60,7 @@ TEST_F(StudyParameters, AreReadOrTakeTheirUsualValueAndCanBeReadAgain) {
   EXPECT_EQ(again.Integer("samples", 0), 7);
 }
 
-TEST_F(StudyParameters, ThatAreWrongAreRefusedByLine) {
+TEST_F(StudyParameters, MalformedAreRefusedByLine) {
   EXPECT_EQ(Complaint("samples = 3\n"), "");
   EXPECT_NE(Complaint("samples = \"many\"\n").find("line 1: expected samples as a number"),
             std::string::npos);
@@ -77,7 +77,7 @@ TEST_F(StudyParameters, ThatAreWrongAreRefusedByLine) {
   EXPECT_EQ(Complaint("samples = \n").find('\n'), std::string::npos);
 }
 
-TEST_F(StudyParameters, ThatAreTooSmallOrUnknownAreRefused) {
+TEST_F(StudyParameters, TooSmallOrUnknownAreRefused) {
   Parameters p = From("folds = 0\nmethods = [\"best\", \"none\", \"bets\"]\nparts = []\n");
   EXPECT_EQ(p.Integer("folds", 1), 0);
   EXPECT_EQ(p.Integer("movers", 3, 2), 3);
@@ -94,7 +94,7 @@ TEST_F(StudyParameters, ThatAreTooSmallOrUnknownAreRefused) {
   EXPECT_EQ(p.Some("methods", {"none", "best", "bets"}, {}), in_order);
 }
 
-TEST_F(StudyParameters, KeepLettersBeyondAsciiInQuotes) {
+TEST_F(StudyParameters, KeepNonAsciiTextInQuotes) {
   EXPECT_EQ(From("kind = \"J\xC3\xBCrgen\"  # \xC3\xBC\n").Text("kind", ""), "J\xC3\xBCrgen");
   // Found by fuzzing: toml++ runs into what it declares unreachable.
   EXPECT_NE(Complaint("# r\n[\x0e").find("line 2"), std::string::npos);
@@ -109,7 +109,7 @@ TEST_F(StudyParameters, KeepLettersBeyondAsciiInQuotes) {
   EXPECT_NE(Complaint("kind = \"a\\").find("line 1: expected texts"), std::string::npos);
 }
 
-TEST_F(StudyParameters, MayBeFlags) {
+TEST_F(StudyParameters, MayBeBooleans) {
   Parameters p = From("full = true\nsamples = 2\n");
   EXPECT_TRUE(p.Flag("full", false));
   EXPECT_FALSE(p.Flag("other", false));
@@ -117,7 +117,7 @@ TEST_F(StudyParameters, MayBeFlags) {
   EXPECT_NE(p.Used().find("full = true"), std::string::npos);
 }
 
-TEST_F(StudyParameters, ThatAreOutOfRangeAreRefusedByLine) {
+TEST_F(StudyParameters, OutOfRangeAreRefusedByLine) {
   Parameters p = From(
       "hours = -1\nsplit = \"tset\"\nmotion = \"/nowhere\"\nmotions = []\ndepths = [5, 30]\n"
       "images = [10, 10.5]\n");
@@ -137,8 +137,8 @@ TEST_F(StudyParameters, ThatAreOutOfRangeAreRefusedByLine) {
             "line 6: expected images as a list of whole numbers");
 }
 
-// What is misspelt would else be told of after hours.
-TEST_F(StudyParameters, AreAllAskedForBeforeTheStudyBegins) {
+// Otherwise a misspelt parameter would be reported after hours.
+TEST_F(StudyParameters, AreAllReadBeforeTheStudyBegins) {
   Parameters p = From("samples = 7\n");
   p.Integer("samples", 100);
   p.ExpectAllUsed();
@@ -165,7 +165,7 @@ class EveryExperiment : public StudyParameters {
   }
 };
 
-TEST_F(EveryExperiment, RefusesAMisspeltParameterBeforeItBegins) {
+TEST_F(EveryExperiment, RefusesAMisspeltParameterAtStart) {
   for (const Experiment& experiment : Experiments()) {
     SCOPED_TRACE(experiment.name);
     const std::string refusal = Refusal(experiment, "\nmisspelt = 3\n");
@@ -174,7 +174,7 @@ TEST_F(EveryExperiment, RefusesAMisspeltParameterBeforeItBegins) {
   }
 }
 
-TEST_F(EveryExperiment, RefusesAParameterOfAPartThatComesLate) {
+TEST_F(EveryExperiment, RefusesBadParametersOfLaterPartsAtStart) {
   const auto refusal = [&](const char* name, const std::string& parameters) {
     return Refusal(*FindExperiment(name), parameters);
   };
@@ -190,7 +190,7 @@ TEST_F(EveryExperiment, RefusesAParameterOfAPartThatComesLate) {
   ExpectHas(refusal("indoor-scenes", "method = \"bets\"\n"), line);
 }
 
-TEST_F(EveryExperiment, RefusesFoldersAndFilesThatAreNotThere) {
+TEST_F(EveryExperiment, RefusesMissingFoldersAndFiles) {
   ExperimentContext context;
   context.out = folder_ / "out";
   context.interrupted = [] { return true; };
@@ -201,7 +201,7 @@ TEST_F(EveryExperiment, RefusesFoldersAndFilesThatAreNotThere) {
   EXPECT_THROW(RunExperiment("shum-2013", context), InputError);
 }
 
-TEST(CachedResults, AreComputedOnceAndSurviveOnlyTheirOwnKey) {
+TEST(CachedResults, AreComputedOnceAndReusedForTheSameKeyOnly) {
   const test::TemporaryFolder folder;
   ExperimentContext context;
   context.out = folder.path();
@@ -210,7 +210,7 @@ TEST(CachedResults, AreComputedOnceAndSurviveOnlyTheirOwnKey) {
   EXPECT_EQ(context.Cached("a", compute), "result 1");
   EXPECT_EQ(context.Cached("a", compute), "result 1");
   EXPECT_EQ(context.Cached("b", compute), "result 2");
-  // A cache file that is damaged is computed anew.
+  // A damaged cache file is computed again.
   for (const auto& entry : std::filesystem::directory_iterator(folder / "cache")) {
     std::ofstream(entry.path()) << "junk";
   }
@@ -219,7 +219,7 @@ TEST(CachedResults, AreComputedOnceAndSurviveOnlyTheirOwnKey) {
 
 // A result of an older program must not be taken for one of this: its key names the program and the
 // libraries that made it by their content.
-TEST(CachedResults, KnowTheCodeThatMadeThem) {
+TEST(CachedResults, KeyContainsChecksumsOfTheProgramAndItsLibraries) {
   const std::string code = ComputeCodeKey();
   EXPECT_TRUE(code.starts_with(ComputeFileKey("/proc/self/exe") + " ")) << code;
   for (const char* library : {"depth", "forest", "recon", "synth", "tracker", "experiments"})
@@ -250,7 +250,7 @@ TEST(ExperimentCommand, RefusesUnknownStudiesAndMissingData) {
   EXPECT_EQ(run.exit_status, 2);
 }
 
-TEST(StudyCommand, RefusesAFileThatSaysTooLittleOrTooMuch) {
+TEST(StudyCommand, RefusesAFileWithMissingOrUnknownParameters) {
   const test::TemporaryFolder folder;
   const auto complaint = [&](const std::string& text) {
     std::ofstream(folder / "s.toml") << text;
@@ -267,8 +267,8 @@ TEST(StudyCommand, RefusesAFileThatSaysTooLittleOrTooMuch) {
             std::string::npos);
 }
 
-// It ended in a complaint about a picture of no pixels.
-TEST(BodyStudy, NamesTheClipsThatThereAreForOneThatThereIsNot) {
+// The message was about an image without pixels.
+TEST(BodyStudy, ListsTheClipsWhenTheNamedOneIsMissing) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   std::ofstream(folder / "p.toml") << "only = [\"golf\", \"yodelling\"]\n";
@@ -289,7 +289,7 @@ struct Refusal {
 
 class AbsurdParameters : public testing::TestWithParam<Refusal> {};
 
-TEST_P(AbsurdParameters, AreOneLine) {
+TEST_P(AbsurdParameters, AreReportedInOneLine) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "p.toml") << GetParam().parameters;
   const auto result = test::RunOssa(

@@ -32,7 +32,7 @@ TEST(FigureFive, HasMeansAndDeviations) {
   EXPECT_EQ(table.note.find("Without"), std::string::npos);
 }
 
-TEST(FigureFive, TakesNothingComparableForNoError) {
+TEST(FigureFive, LeavesScenariosWithoutComparableFramesOutOfTheMeans) {
   auto clips = Clips(3);
   clips[0][2] = {};
   clips[0][2].name = "scenario 3";
@@ -43,7 +43,7 @@ TEST(FigureFive, TakesNothingComparableForNoError) {
   EXPECT_NE(table.note.find("Without 1 of 3 scenarios"), std::string::npos) << table.note;
 }
 
-TEST(FigureFive, HasDashesWhereNothingCanBeCompared) {
+TEST(FigureFive, HasDashesWhereNoFrameIsComparable) {
   std::vector<std::vector<ClipMetrics>> clips(kLabels.size(), std::vector<ClipMetrics>(1));
   const Table table = MakePlantard2016FigureFive(kLabels, clips, clips);
   for (const size_t column : {1u, 3u, 5u}) EXPECT_EQ(table.rows[2][column], "-");
@@ -64,7 +64,7 @@ PairedTracks HeadOffBy(const std::vector<double>& off_cm) {
   return pair;
 }
 
-TEST(FigureEight, HasTheWorstFrameOfEachScenarioByRaw) {
+TEST(FigureEight, ShowsTheWorstRawFrameOfEachScenario) {
   const std::vector<std::vector<PairedTracks>> pairs = {
       {HeadOffBy({1, 9, 2}), HeadOffBy({30, 3, 3})}, {HeadOffBy({1, 4, 8}), HeadOffBy({5, 9, 9})}};
   const Table table = MakePlantard2016FigureEight({"raw", "ours"}, pairs);
@@ -73,8 +73,8 @@ TEST(FigureEight, HasTheWorstFrameOfEachScenarioByRaw) {
   EXPECT_EQ(table.rows[1], (std::vector<std::string>{"1", "0.10", "9.00", "4.00"}));
 }
 
-// Raw sees nobody in the last scenario: no zero that would turn the tests round.
-TEST(PaperTests, LeaveOutScenariosOfNothingComparable) {
+// Raw sees nobody in the last scenario: it must not count as an error of 0.
+TEST(PaperTests, LeaveOutScenariosWithoutComparableFrames) {
   auto clips = Clips(9);
   const Table nine = MakePlantard2016Tests(kLabels, clips);
   auto ten = Clips(10);

@@ -34,7 +34,7 @@ class SharedWithMarks {
   test::TemporaryFolder folder_;
 };
 
-TEST(RealSets, MarksBesideTheImagesMakeASet) {
+TEST(RealSets, MarksFileBesideImagesDefinesASet) {
   const SharedWithMarks shared;
   shared.Mark("# by eye\na.png Head 30 10\nb.png Head 31 11\nb.png HandLeft 50 20\n");
   const auto sets = ReadRealSets(shared.path(), 0);
@@ -46,7 +46,7 @@ TEST(RealSets, MarksBesideTheImagesMakeASet) {
   EXPECT_FALSE(sets[0].stills[0].truth[1].pixel.has_value());
 }
 
-TEST(RealSets, ADamagedMarkIsRefusedWithItsLine) {
+TEST(RealSets, DamagedMarkIsRefusedByItsLine) {
   const SharedWithMarks shared;
   shared.Mark("a.png Head 30 10\na.png Nose 30 10\n");
   test::ExpectRefused([&] { ReadRealSets(shared.path(), 0); }, "marks.txt: line 2");
@@ -79,7 +79,7 @@ struct OneJoint {
   }
 };
 
-TEST(RealScore, AMissingJointIsWrongAndInNoMean) {
+TEST(RealScore, MissingJointCountsAsWrongAndInNoMean) {
   const OneJoint one({0.02, 0.04, 0.12});
   const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, false, {true});
   EXPECT_EQ(score.joints, 4);
@@ -90,19 +90,19 @@ TEST(RealScore, AMissingJointIsWrongAndInNoMean) {
   EXPECT_NEAR(score.per_joint_10cm.at("Head"), 0.5, 1e-9);
 }
 
-TEST(RealScore, OfJointsNeverFoundThereIsNoMean) {
+TEST(RealScore, HasNoMeanForJointsThatAreNeverFound) {
   const OneJoint one({});
   EXPECT_EQ(ScoreStage(one.set, one.results, RealStage::kRaw, false, {true}).mean_cm, std::nullopt);
 }
 
 // Offsets of even stills come from the odd ones: 10 cm for stills 0, 2, 4 and 0 for the others.
-TEST(RealScore, OffsetsComeFromTheOtherHalf) {
+TEST(RealScore, OffsetsAreEstimatedOnTheOtherHalf) {
   const OneJoint one({0.11, 0.10, 0.01, 0.10, 0.01, 0.10});
   const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, true, {true});
   EXPECT_NEAR(score.mean_cm.value(), 100 * (0.01 + 0.09 + 0.09 + 3 * 0.09) / 6, 1e-9);
 }
 
-TEST(RealScore, OffsetsOfSmallSetsComeFromAllStills) {
+TEST(RealScore, OffsetsOfSmallSetsAreEstimatedOnAllStills) {
   OneJoint one({0.11, 0.10, 0.09});
   one.set.offsets_from_other_half = false;
   const StageScore score = ScoreStage(one.set, one.results, RealStage::kRaw, true, {true});
@@ -123,7 +123,7 @@ TEST(RealScore, JointsAreCountedByTheirState) {
   EXPECT_EQ(score.others_within_10cm, 1);
 }
 
-TEST(RealStills, AFewOfEachSetAreJudgedAtEveryStage) {
+TEST(RealStills, AreScoredAtEveryStage) {
   const auto sets = ReadRealSets(test::SharedFolder(), 2);
   if (sets.empty()) GTEST_SKIP() << "no real depth with truth in " << test::SharedFolder();
   tracker::Tracker tracker;
@@ -138,7 +138,7 @@ TEST(RealStills, AFewOfEachSetAreJudgedAtEveryStage) {
 }
 
 // Eight people at a metre with the background cut: joints within a hand's breadth of the marks.
-TEST(RealStills, NearPeopleAreWithinTenCentimetresOfTheMarks) {
+TEST(RealStills, OfNearPeopleAreWithinTenCentimetresOfTheMarks) {
   const auto sets = ReadRealSets(test::SharedFolder(), 3);
   const auto marked = std::find_if(sets.begin(), sets.end(),
                                    [](const RealSet& set) { return set.name == "skeltrack_v1"; });
@@ -153,7 +153,7 @@ TEST(RealStills, NearPeopleAreWithinTenCentimetresOfTheMarks) {
   EXPECT_GE(score.within_10cm, 0.95);
 }
 
-TEST(RealVideo, SomebodyWhoSitsKeepsTheirNumber) {
+TEST(RealVideo, SeatedPersonKeepsTheirId) {
   for (const RealVideo& video : ReadRealVideos(test::SharedFolder(), 10)) {
     if (video.name != "kinect_v1_seated_video") continue;
     tracker::Tracker tracker;
@@ -166,7 +166,7 @@ TEST(RealVideo, SomebodyWhoSitsKeepsTheirNumber) {
   GTEST_SKIP() << "kinect_v1_seated_video is not in " << test::SharedFolder();
 }
 
-TEST(RealHoles, TakeOutSoManyReadingsAndTheSameOnesEachTime) {
+TEST(RealHoles, RemoveTheSameGivenShareOfReadingsEachTime) {
   const SharedWithMarks shared;
   shared.Mark("a.png Head 30 10\nb.png Head 31 11\n");
   const RealSet whole = ReadRealSets(shared.path(), 0).at(0);
@@ -188,7 +188,7 @@ TEST(RealHoles, TakeOutSoManyReadingsAndTheSameOnesEachTime) {
 }
 
 // Of three joints raw has two: final's error of the third counts in neither mean.
-TEST(RawAndFinal, AreMeansOverTheSameJoints) {
+TEST(RawAndFinal, AreAveragedOverTheSameJoints) {
   RealSet set;
   set.joints = {Joint::kHead, Joint::kHandLeft, Joint::kHandRight};
   StillResult result;

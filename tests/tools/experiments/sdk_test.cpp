@@ -1,4 +1,4 @@
-// The studies of recordings with truth: that what is chosen or fitted never saw the person tested.
+// The studies of recordings with truth: chosen and fitted values never depend on the tested person.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -49,7 +49,7 @@ std::vector<Fold> FoldsOf(const std::vector<RecordedPair>& people) {
   return LeaveOneSubjectOut(people, [](const RecordedPair&) { return true; });
 }
 
-TEST(Liu2016Study, LearnsOfTheOthersWithWhateverOptions) {
+TEST(Liu2016Study, LearnsFromTheOtherRecordingsWithAnyOptions) {
   test::TemporaryFolder folder;
   ExperimentContext context;
   context.out = folder.path();
@@ -65,8 +65,8 @@ TEST(Liu2016Study, LearnsOfTheOthersWithWhateverOptions) {
   }
 }
 
-// A staged recording in which nobody was ever found.
-TEST(MethodRun, MakesNothingOfARecordingWithoutFrames) {
+// A staged recording in which nobody is found.
+TEST(MethodRun, ReturnsNoFramesForAnEmptyRecording) {
   test::TemporaryFolder folder;
   ExperimentContext context;
   context.out = folder.path();
@@ -78,7 +78,7 @@ TEST(MethodRun, MakesNothingOfARecordingWithoutFrames) {
   EXPECT_EQ(Average(MeasureAll(pairs), &ClipMetrics::parent_relative_error_cm), std::nullopt);
 }
 
-TEST(Hardest, GroupsStandAloneWhereTheLastMethodIsFarOff) {
+TEST(Hardest, ListsGroupsWhereTheLastMethodIsFarOffSeparately) {
   const auto clip = [](const char* name, double cm) {
     ClipMetrics metrics;
     metrics.name = name;
@@ -98,7 +98,7 @@ TEST(Hardest, GroupsStandAloneWhereTheLastMethodIsFarOff) {
   EXPECT_EQ(table.rows, expected);
 }
 
-TEST(LinearBound, TakesAFrameOfDelayOff) {
+TEST(LinearBound, RemovesADelayOfOneFrame) {
   const std::vector<RecordedPair> people = {Recorded("a", 0.0, 1, 0.0), Recorded("b", 5.0, 1, 0.0)};
   Table table;
   AddLinearBound("made up", FoldsOf(people), &table);
@@ -109,7 +109,7 @@ TEST(LinearBound, TakesAFrameOfDelayOff) {
   EXPECT_LT(std::stod(table.rows[0][3]), raw_cm / 60.0 + 0.02);
 }
 
-TEST(Itop, BestLearnedOfHalfARecordingIsBetterThanOneEuroOnTheOther) {
+TEST(Itop, BestLearnedOnHalfARecordingBeatsOneEuroOnTheOtherHalf) {
   if (!std::filesystem::exists(test::SharedFolder() / "real/itop_a2j"))
     GTEST_SKIP() << "no recordings";
   const auto whole = LoadItop(test::SharedFolder()).at(0);
@@ -125,7 +125,7 @@ TEST(Itop, BestLearnedOfHalfARecordingIsBetterThanOneEuroOnTheOther) {
   }
 }
 
-TEST(Nested, NobodysConstantsDependOnWhatTheyAreTestedOn) {
+TEST(Nested, ChosenConstantsDoNotDependOnTheTestedPerson) {
   const test::TemporaryFolder folder;
   ExperimentContext context;
   context.out = folder.path();

@@ -41,7 +41,7 @@ double Cell(const nlohmann::json& table, size_t row, size_t column) {
   return std::stod(table["rows"][row][column].get<std::string>());
 }
 
-TEST(SensorCommand, FindsTheStepsAndTheShadowOfAKnownSensor) {
+TEST(SensorCommand, MeasuresDepthStepsAndShadowOfASimulatedSensor) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   for (const char* name : {"skeltrack_v1", "pcl_five_people", "pcl_person"}) {
@@ -62,7 +62,7 @@ TEST(SensorCommand, FindsTheStepsAndTheShadowOfAKnownSensor) {
   EXPECT_EQ(tables[1]["rows"][1][1], "-") << "nothing at the right";
 }
 
-TEST(SensorCommand, SaysWhatItMissesInOneLine) {
+TEST(SensorCommand, ReportsMissingInputInOneLine) {
   const test::TemporaryFolder folder;
   for (const auto& [arguments, expected] :
        {std::pair<std::vector<std::string>, std::string>{{}, "--shared"},

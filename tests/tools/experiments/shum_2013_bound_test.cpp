@@ -41,7 +41,7 @@ recon::PostureDatabase Both() {
                                        options);
 }
 
-TEST(ComputeBound, IsNothingForWhatTheDatabaseHasWhoeverPerformsIt) {
+TEST(ComputeBound, IsZeroForADatabasePostureOfAnyBodySize) {
   ASSERT_EQ(Both().size(), 2);
   const auto bound = ComputeBound(Both(), Performance(Raised(), 1.2), {Joint::kHandLeft});
   ASSERT_TRUE(bound);
@@ -49,7 +49,7 @@ TEST(ComputeBound, IsNothingForWhatTheDatabaseHasWhoeverPerformsIt) {
   EXPECT_NEAR(bound->by_parts_cm, 0.0, 1e-3);
 }
 
-TEST(ComputeBound, IsLargerWhereThePartsGivenDoNotTell) {
+TEST(ComputeBound, IsLargerWhereTheGivenPartsAreAmbiguous) {
   // The right hand is the same in both postures: the first of the two is taken.
   const auto bound = ComputeBound(Both(), Performance(Raised(), 1.0), {Joint::kHandRight});
   ASSERT_TRUE(bound);
@@ -68,7 +68,7 @@ TEST(ComputeBound, IsLargerWhereThePartsGivenDoNotTell) {
   EXPECT_FALSE(ComputeBound(Both(), {"empty", {}}, {}));
 }
 
-TEST(ErrorByLimbs, TellsTheArmThatIsOff) {
+TEST(ErrorByLimbs, IsOnlyAtTheWrongArm) {
   const auto truth = Performance(recon::StandardStance(), 1.0);
   const Eigen::Vector3d limbs_cm = ErrorByLimbs_cm(truth, Performance(Raised(), 1.0));
   EXPECT_NEAR(limbs_cm[0], 0.0, 1e-9);

@@ -1,4 +1,4 @@
-// `ossa experiment shum-ho-2012` from the outside: one quick scene, and parameters that are wrong.
+// `ossa experiment shum-ho-2012` as a process: one quick scene, and invalid parameters.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -38,7 +38,7 @@ class ShumHo2012Command : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(ShumHo2012Command, CarriesABoxAndSaysSoTwiceInTheSameBytes) {
+TEST_F(ShumHo2012Command, CarriesABoxWithTheSameBytesTwice) {
   const auto run = Run("parts = [\"carry\"]\n");
   ASSERT_EQ(run.exit_status, 0) << run.err;
   ExpectAllAsWanted("out");
@@ -60,7 +60,7 @@ TEST_F(ShumHo2012Command, AnotherMoverCarriesTheBoxAsWell) {
   ExpectAllAsWanted("out");
 }
 
-TEST_F(ShumHo2012Command, RefusesAPartItDoesNotHave) {
+TEST_F(ShumHo2012Command, RefusesAnUnknownPart) {
   const auto run = Run("parts = [\"juggling\"]\n");
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_EQ(test::LineCount(run.err), 1) << run.err;

@@ -93,7 +93,7 @@ TEST(Lilliefors, AgreesWithSimulation) {
 }
 
 // By Kolmogorov's law, for a normal law given beforehand, one in 40 000 was at 0.05.
-TEST(Lilliefors, RejectsNormalSamplesAsOftenAsItSays) {
+TEST(Lilliefors, RejectsNormalSamplesAtItsSignificanceLevel) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(30.0, 7.0);
   constexpr int kSamples = 4000;
@@ -111,12 +111,12 @@ TEST(Lilliefors, RejectsNormalSamplesAsOftenAsItSays) {
   }
 }
 
-TEST(Lilliefors, OfTooFewOrEqualValuesSaysNothing) {
+TEST(Lilliefors, HasNoResultForTooFewOrEqualValues) {
   EXPECT_FALSE(Lilliefors(Numbers{1, 2, 3, 5}).has_value());
   EXPECT_FALSE(Lilliefors(Numbers{2, 2, 2, 2, 2}).has_value());
 }
 
-TEST(Bootstrap, AgreesWithScipyWithinItsOwnNoise) {
+TEST(Bootstrap, AgreesWithScipyWithinSamplingNoise) {
   const auto interval = BootstrapMean(G("a"), 3, 20000);
   ASSERT_TRUE(interval.has_value());
   // A 2.5 % quantile of 20 000 means of deviation 0.3 is known to about 0.3 * 0.02 = 0.006;
@@ -125,13 +125,13 @@ TEST(Bootstrap, AgreesWithScipyWithinItsOwnNoise) {
   EXPECT_NEAR(interval->high, G("bootstrap")[1], 0.024);
 }
 
-TEST(Bootstrap, GivesTheSameForTheSameSeedAndNothingForOneValue) {
+TEST(Bootstrap, IsDeterministicPerSeedAndHasNoResultForOneValue) {
   EXPECT_EQ(BootstrapMean(G("a"), 5)->low, BootstrapMean(G("a"), 5)->low);
   EXPECT_NE(BootstrapMean(G("a"), 5)->low, BootstrapMean(G("a"), 6)->low);
   EXPECT_FALSE(BootstrapMean(Numbers{1.0}, 5).has_value());
 }
 
-TEST(Wilcoxon, OfEqualSamplesSaysNothing) {
+TEST(Wilcoxon, HasNoResultForEqualSamples) {
   EXPECT_FALSE(Wilcoxon(G("a"), G("a")).has_value());
   EXPECT_FALSE(PairedT(G("a"), G("a")).has_value());
 }
@@ -150,7 +150,7 @@ TEST(RigidTransform, AgreesWithScipysKabsch) {
   }
 }
 
-TEST(GoldenNumbers, AreWhatScipyGivesToday) {
+TEST(GoldenNumbers, EqualThoseOfTheInstalledScipy) {
   const std::string script = test::SourceFolder() / "tests/golden/statistics.py";
   if (std::system("/usr/bin/python3 -c 'import scipy.stats' 2>/dev/null") != 0) {
     GTEST_SKIP() << "python3-scipy is not installed";

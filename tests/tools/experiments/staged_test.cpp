@@ -48,13 +48,13 @@ class Staged : public testing::Test {
   StageOptions options_;
 };
 
-TEST_F(Staged, PersonFacesTheSensorWithTheLeftHandAtTheImageRight) {
+TEST_F(Staged, PersonFacesTheSensorWithTheLeftHandAtImageRight) {
   Studio studio(context_, "simulated");
   const auto frames = studio.Film(clip_, options_);
   ASSERT_EQ(frames.size(), 4u);
   const auto& joints = frames[0].truth.bodies.at(0).joints;
   const auto at = [&](recon::Joint joint) { return joints[joint]->position_m; };
-  // Camera space has x to the sensor's left: the left of who faces it is at negative x.
+  // Camera space has x to the sensor's left: the left of a person who faces it is at negative x.
   EXPECT_LT(at(recon::Joint::kShoulderLeft).x(), at(recon::Joint::kShoulderRight).x());
   EXPECT_GT(at(recon::Joint::kHead).y(), at(recon::Joint::kHipCenter).y());
   EXPECT_NEAR(at(recon::Joint::kHipCenter).z(), options_.distance_m, 0.3);
@@ -66,7 +66,7 @@ TEST_F(Staged, PersonFacesTheSensorWithTheLeftHandAtTheImageRight) {
   EXPECT_LT(at(recon::Joint::kSpine).z() - surface_m, 0.3);
 }
 
-TEST_F(Staged, FromTheRightSeesTheRightSideNearer) {
+TEST_F(Staged, ViewFromTheRightSeesTheRightSideNearer) {
   options_.azimuth_rad = -std::numbers::pi / 2;
   Studio studio(context_, "simulated");
   const auto frames = studio.Film(clip_, options_);
@@ -75,7 +75,7 @@ TEST_F(Staged, FromTheRightSeesTheRightSideNearer) {
   EXPECT_LT(depth_of(recon::Joint::kShoulderRight), depth_of(recon::Joint::kShoulderLeft));
 }
 
-TEST_F(Staged, ThingsHideJointsAndTheTruthStays) {
+TEST_F(Staged, ObjectsHideJointsAndLeaveTheTruthUnchanged) {
   Studio studio(context_, "simulated");
   const auto clean = studio.Film(clip_, options_);
   options_.clutter = Clutter::kCarSeat;
@@ -87,7 +87,7 @@ TEST_F(Staged, ThingsHideJointsAndTheTruthStays) {
   }
 }
 
-TEST_F(Staged, RecordingsAreCachedAndTheSameAgain) {
+TEST_F(Staged, CachedRecordingsEqualTheFirstOnes) {
   const auto first = Studio(context_, "simulated").Record(clip_, options_);
   const auto again = Studio(context_, "simulated").Record(clip_, options_);
   ASSERT_EQ(first.observed.frames.size(), 4u);
@@ -101,7 +101,7 @@ TEST_F(Staged, RecordingsAreCachedAndTheSameAgain) {
   EXPECT_LT(*metrics.mean_joint_error_cm, 8.0);
 }
 
-TEST_F(Staged, AnUnknownObserverIsRefused) { EXPECT_THROW(Studio(context_, "magic"), InputError); }
+TEST_F(Staged, UnknownObserverIsRefused) { EXPECT_THROW(Studio(context_, "magic"), InputError); }
 
 std::vector<std::string> NamesOf(const ObserverFiles& files) {
   std::vector<std::string> names;
@@ -109,8 +109,8 @@ std::vector<std::string> NamesOf(const ObserverFiles& files) {
   return names;
 }
 
-// A file that is exchanged must not leave recordings of the one before in the cache.
-TEST(ObserverFiles, AreAllThatTheTrackerReads) {
+// Recordings of a replaced model file must not stay in the cache.
+TEST(ObserverFiles, AreAllFilesThatTheTrackerReads) {
   EXPECT_EQ(NamesOf(FindObserverFiles("")),
             (std::vector<std::string>{"body.ossa", recon::kShippedRefinement,
                                       recon::kShippedPoseNetwork, recon::kShippedSurface}));
@@ -118,7 +118,7 @@ TEST(ObserverFiles, AreAllThatTheTrackerReads) {
             (std::vector<std::string>{"mine.ossa", recon::kShippedSurface}));
 }
 
-TEST(ModelsOfAStudy, ThatDoNotBelongTogetherAreToldOf) {
+TEST(ModelsOfAStudy, MismatchedAreReported) {
   if (!std::filesystem::exists(tracker::ShippedFile("body.ossa"))) GTEST_SKIP() << "no model";
   const test::TemporaryFolder folder;
   recon::RefinementCascade other;
@@ -128,7 +128,7 @@ TEST(ModelsOfAStudy, ThatDoNotBelongTogetherAreToldOf) {
   files.refinement = folder / "other.ossarefine";
   other.Save(files.refinement);
   ExperimentContext context;
-  LoadModels(context, files, recon::kDefaultMethod);  // nobody is to be told
+  LoadModels(context, files, recon::kDefaultMethod);  // no warning
   std::vector<std::string> told;
   context.warn = [&](const std::string& line) { told.push_back(line); };
   LoadModels(context, files, recon::kDefaultMethod);

@@ -9,7 +9,7 @@ namespace {
 
 const auto kHead = static_cast<size_t>(recon::Joint::kHead);
 
-// A body at rest, each stage saying the same, whose head is so far from its place.
+// A body at rest, equal in all stages, whose head is this far from its mean position.
 BodyStages WithHeadAt(const Eigen::Vector3d& offset_m) {
   StageJoints joints;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -37,16 +37,16 @@ double FinalLeaps(const std::vector<BodyStages>& frames) {
   return Watch(frames).CountLeaps().at(RealStage::kFinal);
 }
 
-TEST(Steadiness, MoreThanHalfAMetreInAFrameIsALeap) {
+TEST(Steadiness, MoreThanHalfAMetrePerFrameIsAJump) {
   EXPECT_EQ(FinalLeaps({WithHeadAt({0, 0, 0}), WithHeadAt({0.49, 0, 0})}), 0.0);
   EXPECT_EQ(FinalLeaps({WithHeadAt({0, 0, 0}), WithHeadAt({0.51, 0, 0})}), 50.0);
 }
 
-TEST(Steadiness, AJointThatWasNotThereCannotLeap) {
+TEST(Steadiness, AbsentJointDoesNotJump) {
   EXPECT_EQ(FinalLeaps({WithHeadAt({0, 0, 0}), WithoutHead(), WithHeadAt({1, 0, 0})}), 0.0);
 }
 
-TEST(Steadiness, WhoComesBackDoesNotLeap) {
+TEST(Steadiness, ReturningPersonDoesNotJump) {
   Steadiness steadiness;
   steadiness.Add({{1, WithHeadAt({0, 0, 0})}});
   steadiness.Add({});
@@ -54,7 +54,7 @@ TEST(Steadiness, WhoComesBackDoesNotLeap) {
   EXPECT_EQ(steadiness.CountLeaps()[RealStage::kFinal], 0.0);
 }
 
-TEST(Steadiness, EachOfSeveralBodiesHasItsOwnFrameBefore) {
+TEST(Steadiness, EachBodyIsComparedWithItsOwnPreviousFrame) {
   Steadiness steadiness;
   for (int frame = 0; frame < 2; ++frame) {
     steadiness.Add({{1, WithHeadAt({0, 0, 0})}, {2, WithHeadAt({1, 0, 0})}});
@@ -78,7 +78,7 @@ TEST(Steadiness, JointsThatMoveHaveNoJitter) {
 }
 
 // Final joints without the head: of the 19 others, which do not move at all.
-TEST(Steadiness, AStageThatLacksAJointHasNoJitterOfIt) {
+TEST(Steadiness, StageWithoutAJointHasNoJitterOfIt) {
   std::vector<BodyStages> frames;
   for (int frame = 0; frame < 6; ++frame) {
     frames.push_back(WithHeadAt({0, 0, frame % 2 == 0 ? 0.002 : -0.002}));

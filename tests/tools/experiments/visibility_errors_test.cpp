@@ -28,7 +28,7 @@ RecordedPair OneFrame(double off_m) {
   return pair;
 }
 
-TEST(ErrorsByVisibility, CountsABoneAsHiddenThatIsHiddenAtOneEnd) {
+TEST(ErrorsByVisibility, CountBonesHiddenAtOneEndAsHidden) {
   const std::vector<RecordedPair> clips = {OneFrame(0.07)};
   const auto errors =
       ErrorsByVisibility(clips, {PairClip("standing", clips[0].truth, clips[0].observed)});
@@ -37,7 +37,7 @@ TEST(ErrorsByVisibility, CountsABoneAsHiddenThatIsHiddenAtOneEnd) {
   EXPECT_NEAR(errors.hidden_share, 1.0 / 19.0, 1e-12);
 }
 
-TEST(ErrorsByVisibility, SaysNothingOfBonesThatWereNotThere) {
+TEST(ErrorsByVisibility, LeaveOutAbsentBones) {
   EXPECT_FALSE(ErrorsByVisibility({}, {}).visible_cm.has_value());
 }
 

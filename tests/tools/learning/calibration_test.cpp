@@ -7,21 +7,21 @@
 namespace ossa::tools {
 namespace {
 
-TEST(Calibration, OfConfidencesThatAreRightHasNoError) {
+TEST(Calibration, ErrorIsZeroForCalibratedConfidences) {
   Calibration calibration;
   for (int i = 0; i < 4; ++i) calibration.Count(0.75, i < 3);
   for (int i = 0; i < 4; ++i) calibration.Count(0.25, i < 1);
   EXPECT_DOUBLE_EQ(calibration.ExpectedError(), 0.0);
 }
 
-TEST(Calibration, CountsOverconfidenceByItsJoints) {
+TEST(Calibration, ErrorWeighsOverconfidenceByTheNumberOfJoints) {
   Calibration calibration;
   for (int i = 0; i < 3; ++i) calibration.Count(0.95, i < 1);  // 0.617 too sure
   calibration.Count(0.05, false);                              // 0.05 too sure
   EXPECT_NEAR(calibration.ExpectedError(), (3 * 0.95 - 1 + 0.05) / 4, 1e-12);
 }
 
-TEST(Calibration, KeepsTenthsApartAndBothEndsInside) {
+TEST(Calibration, BinsAreTenthsWithBothEndsIncluded) {
   Calibration calibration;
   calibration.Count(0.0, false);
   calibration.Count(1.0, true);
@@ -36,7 +36,9 @@ TEST(Calibration, KeepsTenthsApartAndBothEndsInside) {
   EXPECT_NEAR(bins[6].mean_confidence, 0.65, 1e-12);
 }
 
-TEST(Calibration, OfNothingIsNoNumber) { EXPECT_TRUE(std::isnan(Calibration().ExpectedError())); }
+TEST(Calibration, ErrorIsAbsentWithoutJoints) {
+  EXPECT_TRUE(std::isnan(Calibration().ExpectedError()));
+}
 
 }  // namespace
 }  // namespace ossa::tools

@@ -17,7 +17,7 @@ const std::vector<std::string> kPcl = {
 
 std::vector<std::string> OurNames() { return {recon::kPartNames.begin(), recon::kPartNames.end()}; }
 
-TEST(CommonParts, EveryClassOfPclIsSomeCommonPart) {
+TEST(CommonParts, EveryPclClassMapsToACommonPart) {
   const auto common = FindCommonParts(kPcl);
   ASSERT_TRUE(common);
   EXPECT_EQ((*common)[0], kNoCommonPart);
@@ -26,7 +26,7 @@ TEST(CommonParts, EveryClassOfPclIsSomeCommonPart) {
   EXPECT_EQ(parts.count(kNoCommonPart), 0U);
 }
 
-TEST(CommonParts, TruthThatOurModelNamesIsRight) {
+TEST(CommonParts, LabelsOfOurModelMapLikeTheTruth) {
   const auto common = FindCommonParts(OurNames());
   ASSERT_TRUE(common);
   for (uint8_t label = 0; label < recon::kLabelCount; ++label) {
@@ -36,7 +36,7 @@ TEST(CommonParts, TruthThatOurModelNamesIsRight) {
   }
 }
 
-TEST(CommonParts, ShouldersWristsAndAnklesAreNotCountedButMayBeGuessed) {
+TEST(CommonParts, ShouldersWristsAndAnklesAreAcceptedButNotScored) {
   const auto common = FindCommonParts(OurNames());
   ASSERT_TRUE(common);
   for (uint8_t label = 1; label <= recon::kPartCount; ++label) {
@@ -49,11 +49,11 @@ TEST(CommonParts, ShouldersWristsAndAnklesAreNotCountedButMayBeGuessed) {
   }
 }
 
-TEST(CommonParts, OtherVocabulariesAreNotGuessedAt) {
+TEST(CommonParts, UnknownClassNamesHaveNoMapping) {
   EXPECT_FALSE(FindCommonParts(std::vector<std::string>{"background", "cat", "dog"}));
 }
 
-TEST(CommonParts, TargetsOfPclLieInItsClasses) {
+TEST(CommonParts, PclTargetsAreInPclClasses) {
   const auto targets = PclTargets(kPcl);
   ASSERT_EQ(targets.size(), static_cast<size_t>(recon::kJointCount));
   for (size_t j = 0; j < targets.size(); ++j) {

@@ -11,7 +11,7 @@ namespace {
 constexpr auto kHandLeft = recon::Index(recon::Joint::kHandLeft);
 constexpr auto kHead = recon::Index(recon::Joint::kHead);
 
-// One person of whom every joint is found, but only the head and the left hand are seen.
+// One person: every joint is found, only the head and the left hand are visible.
 EvaluationTotals OnePerson() {
   EvaluationTotals totals;
   totals.frames = totals.people = 1;
@@ -26,7 +26,7 @@ EvaluationTotals OnePerson() {
   return totals;
 }
 
-TEST(EvaluationTotals, JointsThatAreNeverVisibleDoNotCountAsMissed) {
+TEST(EvaluationTotals, NeverVisibleJointsDoNotCountAsMissed) {
   EvaluationTotals totals = OnePerson();
   totals.rated_visible[kHandLeft] = {};
   const Evaluation e = Summarise(totals);
@@ -36,7 +36,7 @@ TEST(EvaluationTotals, JointsThatAreNeverVisibleDoNotCountAsMissed) {
   EXPECT_TRUE(std::isnan(e.ap_10cm_visible[0]));
 }
 
-TEST(EvaluationTotals, OfNobodySayNothing) {
+TEST(EvaluationTotals, AreEmptyWithoutPeople) {
   const Evaluation e = Summarise({});
   for (const double value : {e.pixel_accuracy, e.mean_class_accuracy, e.mean_common_accuracy,
                              e.map_10cm, e.map_10cm_visible, e.map_10cm_common}) {
@@ -44,7 +44,7 @@ TEST(EvaluationTotals, OfNobodySayNothing) {
   }
 }
 
-TEST(EvaluationTotals, PixelsOfHeldThingsAreNobodys) {
+TEST(EvaluationTotals, PixelsOfHeldObjectsBelongToNoPerson) {
   EvaluationTotals totals = OnePerson();
   totals.pixels[5] = 10;
   totals.right[5] = 9;
@@ -55,7 +55,7 @@ TEST(EvaluationTotals, PixelsOfHeldThingsAreNobodys) {
   EXPECT_EQ(e.class_accuracy[recon::kOtherPart], 0.0);
 }
 
-TEST(EvaluationTotals, WhatDoesNotOccurIsLeftOutOfTheJson) {
+TEST(EvaluationTotals, JsonLeavesOutClassesThatDoNotOccur) {
   const auto json = nlohmann::json::parse(EvaluationJson(Summarise(OnePerson())));
   EXPECT_EQ(json["ap_10cm_visible"].size(), 2u);
   EXPECT_EQ(json["map_10cm_visible"], 1.0);
@@ -63,7 +63,7 @@ TEST(EvaluationTotals, WhatDoesNotOccurIsLeftOutOfTheJson) {
   EXPECT_TRUE(json["mean_common_accuracy"].is_null());
 }
 
-TEST(EvaluationTotals, TheWorstFramesComeFirst) {
+TEST(EvaluationTotals, WorstFramesComeFirst) {
   EvaluationTotals totals = OnePerson();
   for (const double accuracy : {0.9, 0.2, 0.5}) {
     totals.by_frame.push_back({static_cast<int64_t>(10 * accuracy), accuracy, {}});
@@ -74,7 +74,7 @@ TEST(EvaluationTotals, TheWorstFramesComeFirst) {
   EXPECT_EQ(e.worst_frames[2].index, 9);
 }
 
-TEST(EvaluationTotals, ThePageShowsWhatIsTakenForWhat) {
+TEST(EvaluationTotals, PageShowsTheConfusionMatrix) {
   EvaluationTotals totals = OnePerson();
   totals.confusion[1] = {};
   totals.confusion[1][1] = 3;
@@ -84,7 +84,7 @@ TEST(EvaluationTotals, ThePageShowsWhatIsTakenForWhat) {
   EXPECT_NE(page.find("LU head as RU head: 25.0 %"), std::string::npos);
 }
 
-TEST(EvaluationTotals, ThePageHasADashWhereNothingOccurs) {
+TEST(EvaluationTotals, PageHasADashForClassesThatDoNotOccur) {
   const std::string page = EvaluationHtml(Summarise({}), "nobody");
   EXPECT_EQ(page.find("nan"), std::string::npos) << page;
   EXPECT_NE(page.find("Joint mAP at 10 cm: –,"), std::string::npos) << page;
@@ -96,7 +96,7 @@ TEST(AveragePrecision, IsTheAreaUnderTheMonotoneCurve) {
                    (1 + 2 / 3.0) / 4);
 }
 
-TEST(AveragePrecision, OfThePerfectIsOneWhateverTheirNumber) {
+TEST(AveragePrecision, IsOneForPerfectProposalsOfAnyNumber) {
   for (int64_t count = 1; count <= 1000; ++count) {
     const std::vector<RatedProposal> all(static_cast<size_t>(count), {0.5, true});
     ASSERT_EQ(AveragePrecision(all, count), 1.0) << count;

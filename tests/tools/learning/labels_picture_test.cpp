@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint8_t kNeck = 5, kLeftHand = 16;
 
-// A forest of a single leaf, to which everything is `part`.
+// A forest of a single leaf, which labels every pixel as `part`.
 forest::ForestData OneLeaf(uint8_t part) {
   const forest::TrainingVocabulary vocabulary = BodyVocabulary();
   forest::ForestData data;
@@ -27,7 +27,7 @@ forest::ForestData OneLeaf(uint8_t part) {
   return data;
 }
 
-// Somebody of a few pixels.
+// A person of a few pixels.
 LabelledFrame SmallFrame() {
   LabelledFrame frame;
   frame.depth.camera = depth::KinectV1Camera(8, 6);
@@ -42,8 +42,8 @@ LabelledFrame SmallFrame() {
   return frame;
 }
 
-// It showed those of before, beside the accuracy of those of after.
-TEST(DrawPanels, ShowsLabelsAfterJointsHaveSpokenBackToThem) {
+// The picture showed the labels before relabelling, the accuracy was that after it.
+TEST(DrawPanels, ShowsRelabelledParts) {
   const LabelledFrame frame = SmallFrame();
   forest::ForestData relabelled = OneLeaf(kNeck);
   const size_t classes = relabelled.class_names.size() - 1;

@@ -26,8 +26,8 @@ void TurnAboutX(Posture& posture, std::initializer_list<Joint> moved, Joint abou
   for (const Joint joint : moved) posture[joint] = pivot + turn * (posture[joint] - pivot);
 }
 
-/// Somebody with arms raised who leans forwards and backwards, and whose knees are bent
-/// when they are upright only: of that the trunk's mean and covariance tell little.
+/// A person with raised arms who leans forwards and backwards, with knees bent only when upright: a
+/// dependency that mean and covariance of the trunk do not contain.
 Posture Leaning(double lean_rad) {
   Posture posture = recon::StandardStance();
   TurnAboutX(posture, {Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft},
@@ -60,7 +60,7 @@ PriorNetworkOptions Small() {
   return options;
 }
 
-/// Mean error of the ankles, metres, of leans of which nothing but the hands is seen.
+/// Mean error of the ankles, metres, of leans of which only the hands are observed.
 double AnkleError_m(const recon::PosturePrior& prior) {
   recon::PriorFilter filter(std::make_shared<recon::PosturePrior>(prior));
   double sum_m = 0.0;
@@ -81,7 +81,7 @@ double AnkleError_m(const recon::PosturePrior& prior) {
   return sum_m / kFrames;
 }
 
-TEST(LearnPriorNetwork, LearnsWhatNoGaussianSays) {
+TEST(LearnPriorNetwork, LearnsADependencyThatNoGaussianHas) {
   const auto clips = Leans(60.0);
   recon::PosturePrior prior = recon::PosturePrior::Learn(clips);
   const double gaussian_m = AnkleError_m(prior);
@@ -92,7 +92,7 @@ TEST(LearnPriorNetwork, LearnsWhatNoGaussianSays) {
   EXPECT_LT(AnkleError_m(prior), 0.8 * gaussian_m);
 }
 
-TEST(LearnPriorNetwork, IsTheSameForAnyThreads) {
+TEST(LearnPriorNetwork, IsTheSameForAnyNumberOfThreads) {
   const auto clips = Leans(20.0);
   const recon::PosturePrior prior = recon::PosturePrior::Learn(clips);
   PriorNetworkOptions one = Small(), three = Small();
@@ -107,7 +107,7 @@ TEST(LearnPriorNetwork, IsTheSameForAnyThreads) {
   EXPECT_FALSE(LearnPriorNetwork(prior, clips, one).layers[0].weight == a.layers[0].weight);
 }
 
-TEST(LearnPriorNetwork, NeedsMotionAndMayBeStopped) {
+TEST(LearnPriorNetwork, RefusesNoMotionAndCanBeInterrupted) {
   const recon::PosturePrior prior = recon::PosturePrior::Learn(Leans(20.0));
   EXPECT_THROW(LearnPriorNetwork(prior, Leans(0.1), Small()), InputError);
   PriorNetworkOptions stopped = Small();

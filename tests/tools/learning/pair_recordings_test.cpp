@@ -1,4 +1,4 @@
-// What was observed beside what was true, by the names of recordings.
+// Pairs of observed and true recordings, by their names.
 #include "tools/learning/pair_recordings.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class PairedFolders : public testing::Test {
     recon::WriteSkeletons(folder + "/" + name + ".jsonl",
                           recon::test::SequenceOf(recon::test::Seen(1, 30).truth));
   }
-  /// Pairs, and what is said of the files.
+  /// The pairs and the message about the files.
   size_t CountPairs() {
     said_.clear();
     const auto read = [this](const std::vector<recon::SkeletonClip>& clips) {
@@ -38,7 +38,7 @@ class PairedFolders : public testing::Test {
   std::vector<std::string> said_;
 };
 
-TEST_F(PairedFolders, SayOfHowManyThereIsNoTruth) {
+TEST_F(PairedFolders, ReportTheNumberOfRecordingsWithoutTruth) {
   for (const char* name : {"a", "b", "c"}) WriteWalk(seen_, name);
   for (const char* name : {"a", "B", "C"}) WriteWalk(true_, name);
   EXPECT_EQ(CountPairs(), 30u);
@@ -48,7 +48,7 @@ TEST_F(PairedFolders, SayOfHowManyThereIsNoTruth) {
       << said_[0];
 }
 
-TEST_F(PairedFolders, OfOneRecordingEachBelongTogetherWhateverItsName) {
+TEST_F(PairedFolders, OfOneRecordingEachArePairedWhateverTheNames) {
   WriteWalk(seen_, "kinect");
   WriteWalk(true_, "vicon");
   EXPECT_EQ(CountPairs(), 30u);

@@ -8,7 +8,7 @@
 namespace ossa::tools {
 namespace {
 
-// Four by two pixels, two of them somebody's left hand and foot; joints in a row.
+// Four by two pixels, two of them a left hand and a left foot; joints in a row.
 forest::TrainingImage SmallImage() {
   forest::TrainingImage image;
   image.camera = depth::KinectV1Camera(4, 2);
@@ -22,7 +22,7 @@ forest::TrainingImage SmallImage() {
   return image;
 }
 
-// Shoulders and hips of somebody below the camera whose left is there.
+// Shoulders and hips of a person below the camera whose left points in that direction.
 recon::Posture Below(const Eigen::Vector3d& left) {
   recon::Posture joints_m;
   joints_m.position_m.fill({0.0, 0.0, 1.5});
@@ -32,7 +32,7 @@ recon::Posture Below(const Eigen::Vector3d& left) {
 }
 
 TEST(HeadingSector, IsZeroUpTheImageAndGrowsClockwise) {
-  // x grows to the image's left: who has the left there faces up the image.
+  // x grows to the image's left: a person with the left there faces up the image.
   EXPECT_EQ(HeadingSector(Below(Eigen::Vector3d::UnitX())), 0);
   EXPECT_EQ(HeadingSector(Below(Eigen::Vector3d::UnitY())), 2);  // faces right
   EXPECT_EQ(HeadingSector(Below(-Eigen::Vector3d::UnitX())), 4);
@@ -51,7 +51,7 @@ TEST(Mirrored, SwapsLeftAndRight) {
   EXPECT_EQ(mirrored.target_visible[left], image.target_visible[right]);
 }
 
-TEST(Mirrored, PointsOfTheSurfaceAreMirroredToo) {
+TEST(Mirrored, MirrorsSurfacePoints) {
   const forest::TrainingImage image = SmallImage();
   const forest::TrainingImage mirrored = Mirrored(image);
   const Eigen::Vector3d before = depth::BackProject(image.camera, 1, 0, 1500);
@@ -59,7 +59,7 @@ TEST(Mirrored, PointsOfTheSurfaceAreMirroredToo) {
   EXPECT_NEAR((after - Eigen::Vector3d(-before.x(), before.y(), before.z())).norm(), 0.0, 1e-12);
 }
 
-TEST(Mirrored, TwiceIsTheImageItself) {
+TEST(Mirrored, TwiceIsTheIdentity) {
   const forest::TrainingImage image = SmallImage();
   const forest::TrainingImage twice = Mirrored(Mirrored(image));
   EXPECT_EQ(twice.depth_mm, image.depth_mm);
@@ -86,7 +86,7 @@ LabelledFrame Crop(const depth::Camera& whole) {
   return frame;
 }
 
-TEST(Uncropped, PutsPixelsBackWhereTheSensorSawThem) {
+TEST(Uncropped, PutsPixelsBackAtTheirSensorPosition) {
   const depth::Camera whole = depth::KinectV1Camera(5, 3);
   const LabelledFrame frame = Uncropped(Crop(whole), whole);
   EXPECT_EQ(frame.depth.camera.cx, whole.cx);
@@ -97,7 +97,7 @@ TEST(Uncropped, PutsPixelsBackWhereTheSensorSawThem) {
   EXPECT_EQ(frame.users.at(3, 1), 1);
 }
 
-TEST(Uncropped, KeepsProjectionsWhereTheCameraIsAnother) {
+TEST(Uncropped, KeepsProjectionsForAnotherCamera) {
   const depth::Camera whole = depth::KinectV1Camera(5, 3);
   LabelledFrame crop = Crop(whole);
   crop.depth.camera.cx -= 40.25;  // would lie outside

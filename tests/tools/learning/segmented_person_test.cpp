@@ -36,7 +36,7 @@ bool IsPersons(const std::vector<uint8_t>& is_person, int u, int v) {
   return is_person.at(static_cast<size_t>(v * kWidth + u)) != 0;
 }
 
-TEST(SegmentedPerson, KeepsWhatIsHeldAndNotWhatStandsBefore) {
+TEST(SegmentedPerson, IncludesHeldObjectsAndExcludesOccluders) {
   LabelledFrame frame = Empty();
   Put(30, 40, 10, 40, 2000, 4, &frame);
   Put(40, 50, 20, 26, 1980, recon::kOtherPart, &frame);  // in touch with the body
@@ -52,14 +52,14 @@ TEST(SegmentedPerson, KeepsWhatIsHeldAndNotWhatStandsBefore) {
   EXPECT_EQ(std::count(nobody.begin(), nobody.end(), 1), 0);
 }
 
-TEST(SegmentedPerson, WhatHasNoReadingIsNobodys) {
+TEST(SegmentedPerson, ExcludesPixelsWithoutAReading) {
   LabelledFrame frame = Empty();
   Put(30, 40, 10, 40, 2000, 4, &frame);
   frame.depth.depth_mm[20 * kWidth + 35] = 0;
   EXPECT_FALSE(IsPersons(SegmentedPerson(frame, 1), 35, 20));
 }
 
-TEST(SegmentedPerson, LosesItsSolesToTheFloor) {
+TEST(SegmentedPerson, ExcludesSolesOnTheFloor) {
   LabelledFrame frame = Empty();
   Put(38, 42, 0, kHeight, 2000, 30, &frame);
   const auto without = SegmentedPerson(frame, 1);
@@ -82,7 +82,7 @@ TEST(SegmentedPerson, LosesItsSolesToTheFloor) {
   EXPECT_GT(legs, 1);
 }
 
-TEST(LayFloor, FillsOnlyWhereNothingWasMeasured) {
+TEST(LayFloor, FillsOnlyPixelsWithoutAReading) {
   LabelledFrame frame = Empty();
   Put(30, 40, 10, 58, 2000, 4, &frame);
   LabelledFrame unknown = frame;

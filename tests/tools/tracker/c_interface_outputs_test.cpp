@@ -30,8 +30,8 @@ ossa_body BodyOf(const ossa_tracker* tracker) {
   return body;
 }
 
-// The frame of each image comes once, in order, and is that of the C++ interface.
-TEST(CInterface, WithALagFramesComeLateAndSmoothed) {
+// Each image gives one frame, in order, equal to that of the C++ interface.
+TEST(CInterface, LagDelaysAndSmoothsFrames) {
   OSSA_NEEDS_MODEL();
   TrackerOptions of_cpp = PlainOptions();
   of_cpp.lag = 2;
@@ -65,7 +65,7 @@ TEST(CInterface, WithALagFramesComeLateAndSmoothed) {
   ossa_tracker_destroy(tracker);
 }
 
-TEST(CInterface, ALagThatCannotBeIsRefused) {
+TEST(CInterface, InvalidLagIsRefused) {
   OSSA_NEEDS_MODEL();
   ossa_options options = PlainOptionsInC();
   options.lag = 3;
@@ -73,8 +73,8 @@ TEST(CInterface, ALagThatCannotBeIsRefused) {
   EXPECT_TRUE(Says("lag = 3")) << ossa_last_error();
 }
 
-// A person who was fitted: as the C++ interface says of the same image.
-TEST(CInterface, AFittedPersonHasShapeBonesAndSkin) {
+// A fitted person equals that of the C++ interface for the same image.
+TEST(CInterface, FittedPersonHasShapeBonesAndMesh) {
   OSSA_NEEDS_MODEL();
   WalkInC walk(Sized<ossa_options>());
   const ossa_body body = walk.Next();
@@ -107,7 +107,7 @@ TEST(CInterface, AFittedPersonHasShapeBonesAndSkin) {
   }
 }
 
-TEST(CInterface, WithoutASurfaceThereIsNoFit) {
+TEST(CInterface, NoFitWithoutASurface) {
   OSSA_NEEDS_MODEL();
   auto options = Sized<ossa_options>();
   options.surface = "none";
@@ -127,7 +127,7 @@ TEST(CInterface, WithoutASurfaceThereIsNoFit) {
   EXPECT_TRUE(Says("ossa_options.person: expected a body surface")) << ossa_last_error();
 }
 
-TEST(CInterface, ASurfaceOfOnesOwnHasTheSkinThatIsNamedWithIt) {
+TEST(CInterface, CustomSurfaceUsesTheMeshNamedWithIt) {
   OSSA_NEEDS_MODEL();
   const std::string surface = ShippedFile("body.ossasurface"), mesh = ShippedFile("body.ossamesh");
   auto options = Sized<ossa_options>();
@@ -149,7 +149,7 @@ TEST(CInterface, ASurfaceOfOnesOwnHasTheSkinThatIsNamedWithIt) {
   EXPECT_TRUE(Says("body.ossasurface")) << ossa_last_error();
 }
 
-TEST(CInterface, APersonIsKnownAgainByTheirFile) {
+TEST(CInterface, PersonFileRestoresTheShape) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const std::string person = folder / "me.ossaperson";
@@ -167,7 +167,7 @@ TEST(CInterface, APersonIsKnownAgainByTheirFile) {
   EXPECT_LT(again.Next().stature_sigma_m, sigma_m);
 }
 
-TEST(CInterface, PartsAreTherePixelByPixelForWhoAsks) {
+TEST(CInterface, PartImageIsFilledOnRequest) {
   OSSA_NEEDS_MODEL();
   ossa_options options = PlainOptionsInC();
   WalkInC without(options);
@@ -186,7 +186,7 @@ TEST(CInterface, PartsAreTherePixelByPixelForWhoAsks) {
   EXPECT_EQ(ossa_part_name(-1), nullptr);
 }
 
-TEST(CInterface, ThingsOfASceneAreTold) {
+TEST(CInterface, SceneObjectsAreReturned) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const std::string scene = folder / "ball.toml";
@@ -196,7 +196,7 @@ TEST(CInterface, ThingsOfASceneAreTold) {
   options.scene = scene.c_str();
   WalkInC walk(options);
   ASSERT_NE(walk.tracker, nullptr) << ossa_last_error();
-  for (int i = 0; i < 15; ++i) walk.Next();  // things wait until the floor was seen for 0.3 s
+  for (int i = 0; i < 15; ++i) walk.Next();  // objects wait until the floor was seen for 0.3 s
   ASSERT_EQ(walk.frame.object_count, 1);
   auto ball = Sized<ossa_object>();
   ASSERT_EQ(ossa_tracker_object(walk.tracker, 0, &ball), OSSA_OK) << ossa_last_error();
@@ -211,8 +211,8 @@ TEST(CInterface, ThingsOfASceneAreTold) {
   EXPECT_TRUE(Says("/nowhere.toml")) << ossa_last_error();
 }
 
-// Each made here, used in a thread of its own and destroyed in another; all see the same.
-TEST(CInterface, TrackersWorkInSeveralThreadsAndEndInAnyOrder) {
+// Each is created here, used in its own thread and destroyed in another; results are equal.
+TEST(CInterface, TrackersWorkInSeveralThreadsAndCloseInAnyOrder) {
   OSSA_NEEDS_MODEL();
   std::array<ossa_tracker*, 3> trackers{};
   std::array<float, 3> head_m{};

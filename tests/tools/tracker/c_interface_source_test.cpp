@@ -48,8 +48,8 @@ TEST(CInterface, PixelsAndCameraSpaceMapBothWays) {
   EXPECT_EQ(ossa_back_project(&image, uv, 0.0F, again_m), OSSA_FAILED);
 }
 
-// Left is left again, where the mirror had exchanged them.
-TEST(CInterface, MirroredImagesAreTurnedBack) {
+// Left is left again after the mirrored image is unmirrored.
+TEST(CInterface, MirroredImagesAreUnmirrored) {
   const depth::DepthFrame frame = Rendered({PersonAt(0.4, 2.5)}).frame;
   ossa_depth_image image = ImageOf(frame);
   image.cx = 150.0;
@@ -64,9 +64,8 @@ TEST(CInterface, MirroredImagesAreTurnedBack) {
   EXPECT_EQ(ossa_unmirror(&image, nullptr), OSSA_FAILED);
 }
 
-// A person as tall as there are, seen by a camera whose view is narrower than their images' size
-// says.
-TEST(CInterface, ANarrowerCameraIsFoundForWhoAsks) {
+// A very tall person, by a camera with a narrower view than the image size suggests.
+TEST(CInterface, CameraSearchFindsANarrowerCamera) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   tests::CapsuleScene scene;
@@ -94,7 +93,7 @@ TEST(CInterface, ANarrowerCameraIsFoundForWhoAsks) {
   }
 }
 
-TEST(CInterface, WhatASourceIsWronglyAskedForIsSaidInWords) {
+TEST(CInterface, SourceErrorsHaveMessages) {
   const test::TemporaryFolder folder;
   auto options = Sized<ossa_source_options>();
   options.depth_format = "sideways";
@@ -102,7 +101,7 @@ TEST(CInterface, WhatASourceIsWronglyAskedForIsSaidInWords) {
   EXPECT_TRUE(Says("sideways")) << ossa_last_error();
 }
 
-TEST(CInterface, MirroredImagesOfASourceComeAsTheSensorLooks) {
+TEST(CInterface, SourceUnmirrorsMirroredImages) {
   const test::TemporaryFolder folder;
   const std::vector<uint16_t> row = {1000, 1001, 1002, 1003};
   depth::WriteDepthPng(folder / "0.png", {row.data(), 4, 1, 4});
@@ -119,7 +118,7 @@ TEST(CInterface, MirroredImagesOfASourceComeAsTheSensorLooks) {
   ossa_source_close(source);
 }
 
-// What a program's other thread sets when its user has enough of waiting.
+// Set by another thread of a program when its user cancels the wait.
 struct Impatience {
   std::atomic<bool> has_enough = false;
   std::atomic<int> asked = 0;
@@ -142,7 +141,7 @@ struct Impatience {
   }
 };
 
-TEST(CInterface, AnotherThreadEndsTheWaitForADevice) {
+TEST(CInterface, AnotherThreadInterruptsTheWaitForADevice) {
   Impatience user;
   ossa_source_options options = user.Options();
   options.wait_s = 3600.0;
@@ -152,7 +151,7 @@ TEST(CInterface, AnotherThreadEndsTheWaitForADevice) {
   EXPECT_TRUE(Says("openni:ossa:///nowhere")) << ossa_last_error();
 }
 
-TEST(CInterface, AnotherThreadEndsTheWaitForAFrame) {
+TEST(CInterface, AnotherThreadInterruptsTheWaitForAFrame) {
   const test::TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 1);
   const std::string silent = "openni:ossa://" + folder.path().string() + "?stall_after=1";
@@ -169,7 +168,7 @@ TEST(CInterface, AnotherThreadEndsTheWaitForAFrame) {
   ossa_source_close(source);
 }
 
-TEST(CInterface, TheSearchForWhichWayIsUpMayBeEnded) {
+TEST(CInterface, SearchForTheUprightRotationCanBeInterrupted) {
   OSSA_NEEDS_MODEL();
   const std::string clip = test::SourceFolder() / "tests/golden/clips/one";
   Impatience user;
@@ -187,8 +186,8 @@ TEST(CInterface, TheSearchForWhichWayIsUpMayBeEnded) {
   ossa_source_close(source);
 }
 
-// Compiled before keep_waiting: what lies behind its struct is no function.
-TEST(CInterface, AnOlderProgramsSourceOptionsAreReadAsFarAsTheyGo) {
+// Compiled before keep_waiting: the bytes after its struct are no function pointer.
+TEST(CInterface, SmallerSourceOptionsOfOlderProgramsAreAccepted) {
   auto options = Impatience().Options();
   options.struct_size = offsetof(ossa_source_options, keep_waiting);
   options.keep_waiting = [](void*) -> int32_t { std::abort(); };

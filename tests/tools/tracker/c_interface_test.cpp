@@ -23,7 +23,7 @@ using test::Says;
 using test::WalkInC;
 using tests::CapsuleRender;
 
-TEST(CInterface, ACHeaderServesOtherLanguages) {
+TEST(CInterface, CProgramTracksAndChoosesUsers) {
   OSSA_NEEDS_MODEL();
   WalkInC walk;
   ASSERT_NE(walk.tracker, nullptr) << ossa_last_error();
@@ -38,8 +38,8 @@ TEST(CInterface, ACHeaderServesOtherLanguages) {
   EXPECT_EQ(walk.Next().state, OSSA_POSITION_ONLY);
 }
 
-// The C++ and the C interface say the same of the same image.
-TEST(CInterface, HasTheJointsOfTheCppInterface) {
+// The C++ and the C interface give the same results for the same image.
+TEST(CInterface, JointsEqualThoseOfTheCppInterface) {
   OSSA_NEEDS_MODEL();
   ossa_options options{};
   options.struct_size = sizeof options;
@@ -59,7 +59,7 @@ TEST(CInterface, HasTheJointsOfTheCppInterface) {
   }
 }
 
-TEST(CInterface, NamesJointsAndItsVersion) {
+TEST(CInterface, ReturnsJointNamesAndVersion) {
   EXPECT_STREQ(ossa_joint_name(OSSA_WRIST_RIGHT), "WristRight");
   EXPECT_EQ(ossa_joint_parent(OSSA_WRIST_RIGHT), OSSA_ELBOW_RIGHT);
   EXPECT_EQ(ossa_joint_parent(OSSA_HIP_CENTER), -1);
@@ -67,7 +67,7 @@ TEST(CInterface, NamesJointsAndItsVersion) {
   EXPECT_STREQ(ossa_version(), Version());
 }
 
-TEST(CInterface, AResetForgetsWhoWasThere) {
+TEST(CInterface, ResetDeletesAllPeople) {
   OSSA_NEEDS_MODEL();
   WalkInC walk;
   walk.Next();
@@ -82,7 +82,7 @@ TEST(CInterface, AResetForgetsWhoWasThere) {
   EXPECT_EQ(walk.frame.body_count, 2);
 }
 
-TEST(CInterface, InCModesAndSmoothingChangeWhileRunning) {
+TEST(CInterface, SeatedModeAndSmoothingChangeWhileRunning) {
   OSSA_NEEDS_MODEL();
   WalkInC walk;
   ASSERT_NE(walk.tracker, nullptr) << ossa_last_error();
@@ -106,7 +106,7 @@ TEST(CInterface, InCModesAndSmoothingChangeWhileRunning) {
   EXPECT_EQ(walk.SmoothedBy_m(), 0.0F);
 }
 
-TEST(CInterface, WrongModesAndSmoothingAreSaidInWords) {
+TEST(CInterface, InvalidModesAndSmoothingHaveMessages) {
   OSSA_NEEDS_MODEL();
   WalkInC walk;
   EXPECT_EQ(ossa_tracker_set_smoothing(walk.tracker, "treacle"), OSSA_FAILED);
@@ -123,7 +123,7 @@ TEST(CInterface, WrongModesAndSmoothingAreSaidInWords) {
   EXPECT_TRUE(Says("ossa_tracker_set_smooth_parameters: expected parameters, found NULL"));
 }
 
-TEST(CInterface, ACameraThatCannotBeIsRefused) {
+TEST(CInterface, InvalidCameraIsRefused) {
   OSSA_NEEDS_MODEL();
   WalkInC walk;
   depth::DepthFrame frame = Rendered({}).frame;
@@ -136,7 +136,7 @@ TEST(CInterface, ACameraThatCannotBeIsRefused) {
   }
 }
 
-TEST(CInterface, TheCHeaderReportsFailuresInWords) {
+TEST(CInterface, FailuresHaveMessages) {
   ossa_options options{};
   options.struct_size = sizeof options;
   options.model = "/nowhere/model.ossa";
@@ -147,7 +147,7 @@ TEST(CInterface, TheCHeaderReportsFailuresInWords) {
   EXPECT_TRUE(Says("/nowhere.oni")) << ossa_last_error();
 }
 
-TEST(CInterface, AFileThatTheMethodDoesNotReadIsRefused) {
+TEST(CInterface, FileThatTheMethodDoesNotReadIsRefused) {
   ossa_options options = PlainOptionsInC();
   options.struct_size = sizeof options;
   options.method = "holt";
@@ -158,7 +158,7 @@ TEST(CInterface, AFileThatTheMethodDoesNotReadIsRefused) {
       << ossa_last_error();
 }
 
-TEST(CInterface, AStructSizeThatNoVersionHadIsRefused) {
+TEST(CInterface, UnknownStructSizeIsRefused) {
   for (const uint32_t size :
        {0U, 4U, static_cast<uint32_t>(sizeof(ossa_options) - 1), 0xcdcdcdcdU}) {
     ossa_options options{};
@@ -168,11 +168,11 @@ TEST(CInterface, AStructSizeThatNoVersionHadIsRefused) {
   }
 }
 
-// Structs as they were before members came: what those say now is as without them, and nothing is
-// written behind what the program knows.
+// Structs of earlier versions, without later members: those have their default, and nothing is
+// written beyond the size that the program knows.
 class EarlierOptions : public testing::TestWithParam<size_t> {};
 
-TEST_P(EarlierOptions, AreTakenAsTheyAre) {
+TEST_P(EarlierOptions, AreAcceptedByTheirStructSize) {
   OSSA_NEEDS_MODEL();
   ossa_options options = PlainOptionsInC();
   options.struct_size = static_cast<uint32_t>(GetParam());
@@ -186,7 +186,7 @@ TEST_P(EarlierOptions, AreTakenAsTheyAre) {
 // By sizeof in programs that were compiled then, x86-64.
 INSTANTIATE_TEST_SUITE_P(Sizes, EarlierOptions, testing::Values(80, 96));
 
-TEST(CInterface, AProgramOfAnEarlierVersionRuns) {
+TEST(CInterface, ProgramOfAnEarlierVersionRuns) {
   OSSA_NEEDS_MODEL();
   constexpr size_t kFrame = 48, kBody = 1868;  // bytes, likewise
   WalkInC walk;
@@ -208,7 +208,7 @@ TEST(CInterface, AProgramOfAnEarlierVersionRuns) {
 }
 
 // A camera that lies on its side: joints stay in its own space.
-TEST(CInterface, ImagesMayBeTurned) {
+TEST(CInterface, RotatedImagesAreTracked) {
   OSSA_NEEDS_MODEL();
   ossa_options options = PlainOptionsInC();
   options.rotate = "90";
@@ -227,14 +227,14 @@ TEST(CInterface, ImagesMayBeTurned) {
   EXPECT_TRUE(Says("ossa_options.mount: expected auto, level, ceiling, found 'wall'"));
 }
 
-// What a program hands over that was compiled with a later version's header.
+// A struct of a program that was compiled with the header of a later version.
 template <typename T>
 struct Later {
   T known{};
   uint64_t added = 0;
 };
 
-TEST(CInterface, AMemberThatThisVersionDoesNotKnowMustBeZero) {
+TEST(CInterface, UnknownMembersMustBeZero) {
   OSSA_NEEDS_MODEL();
   Later<ossa_options> options{PlainOptionsInC(), 0};
   options.known.struct_size = sizeof options;
@@ -246,7 +246,7 @@ TEST(CInterface, AMemberThatThisVersionDoesNotKnowMustBeZero) {
   EXPECT_TRUE(Says("ossa_options: a member behind byte")) << ossa_last_error();
 }
 
-TEST(CInterface, NothingIsWrittenBehindWhatThisVersionKnows) {
+TEST(CInterface, WritesNothingBeyondTheStructSize) {
   OSSA_NEEDS_MODEL();
   WalkInC walk;
   walk.Next();
@@ -258,7 +258,7 @@ TEST(CInterface, NothingIsWrittenBehindWhatThisVersionKnows) {
   EXPECT_EQ(body.added, 77U);
 }
 
-TEST(CInterface, ASourceIsReadToItsEnd) {
+TEST(CInterface, SourceIsReadToItsEnd) {
   const std::string clip = test::SourceFolder() / "tests/golden/clips/one";
   ossa_source* source = ossa_source_open(clip.c_str(), nullptr);
   ASSERT_NE(source, nullptr) << ossa_last_error();
@@ -279,8 +279,8 @@ TEST(CInterface, ASourceIsReadToItsEnd) {
   ossa_source_close(source);
 }
 
-// What the command says on its error output.
-TEST(CInterface, ASourceHasItsNotes) {
+// The same text as the command prints on stderr.
+TEST(CInterface, SourceReturnsItsNotes) {
   const test::TemporaryFolder folder;
   test::WriteExampleFolder(folder.path(), 2, 64, 48);
   depth::WriteDepthPng(folder / "x.png", test::ExampleFrame(1, 32, 24).view());
@@ -304,7 +304,7 @@ TEST(CInterface, ASourceHasItsNotes) {
   ossa_source_close(source);
 }
 
-TEST(CInterface, ATrackerHasTheWarningsOfItsModels) {
+TEST(CInterface, TrackerReturnsWarningsOfItsModels) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const std::string file = folder / "other.ossarefine";
@@ -326,7 +326,7 @@ TEST(CInterface, ATrackerHasTheWarningsOfItsModels) {
   ossa_tracker_destroy(tracker);
 }
 
-TEST(CInterface, ACameraOfASourceMayBeNamed) {
+TEST(CInterface, SourceAcceptsANamedCamera) {
   const std::string clip = test::SourceFolder() / "tests/golden/clips/one/depth";
   ossa_source_options options{};
   options.struct_size = sizeof options;

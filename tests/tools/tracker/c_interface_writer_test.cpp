@@ -17,7 +17,7 @@ using test::Says;
 using test::Sized;
 using test::WalkInC;
 
-/// A walk of so many frames, written.
+/// Writes a walk of that many frames.
 ossa_status WriteWalk(const std::string& path, int frames, ossa_options options = PlainOptionsInC(),
                       const ossa_writer_options* how = nullptr) {
   WalkInC walk(options);
@@ -32,7 +32,7 @@ ossa_status WriteWalk(const std::string& path, int frames, ossa_options options 
   return status;
 }
 
-TEST(CInterface, SkeletonsAreWritten) {
+TEST(CInterface, WriterWritesSkeletons) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const std::string path = folder / "walk.jsonl";
@@ -47,8 +47,8 @@ TEST(CInterface, SkeletonsAreWritten) {
               walk.Next().joints[OSSA_HEAD].position_m[2], 1e-3);
 }
 
-// Joints that nobody looks for are not written, as by `ossa track --mode seated`.
-TEST(CInterface, OfSeatedPeopleTheUpperJointsAreWritten) {
+// Joints that are not tracked in seated mode are not written, as by `ossa track --mode seated`.
+TEST(CInterface, WriterWritesTheUpperJointsOfSeatedPeople) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const std::string path = folder / "walk.jsonl";
@@ -60,7 +60,7 @@ TEST(CInterface, OfSeatedPeopleTheUpperJointsAreWritten) {
   EXPECT_FALSE(joints[recon::Joint::kFootLeft]);
 }
 
-TEST(CInterface, PeopleOfAGlbWearASkinUnlessTheyAreToWearNone) {
+TEST(CInterface, WriterAddsAMeshToAGlbUnlessDisabled) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const std::string dressed = folder / "dressed.glb", bare = folder / "bare.glb";
@@ -72,7 +72,7 @@ TEST(CInterface, PeopleOfAGlbWearASkinUnlessTheyAreToWearNone) {
   EXPECT_GT(std::filesystem::file_size(dressed), 2 * std::filesystem::file_size(bare));
 }
 
-TEST(CInterface, WhatAWriterIsWronglyAskedForIsSaidInWords) {
+TEST(CInterface, WriterErrorsHaveMessages) {
   const test::TemporaryFolder folder;
   auto how = Sized<ossa_writer_options>();
   const auto refuses = [&](const char* name, const char* what) {
@@ -98,7 +98,7 @@ TEST(CInterface, WhatAWriterIsWronglyAskedForIsSaidInWords) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(CInterface, AWriterThatIsNotFinishedLeavesNothingAndAFinishedOneTakesNoMore) {
+TEST(CInterface, UnfinishedWriterLeavesNothingAndAFinishedOneRefusesFrames) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const std::string path = folder / "walk.csv";
@@ -118,7 +118,7 @@ TEST(CInterface, AWriterThatIsNotFinishedLeavesNothingAndAFinishedOneTakesNoMore
   EXPECT_TRUE(std::filesystem::exists(path));
 }
 
-TEST(CInterface, OfAFullDiskWhatFitsIsKept) {
+TEST(CInterface, WriterKeepsTheFramesThatFitOnAFullDisk) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const std::string path = folder / "walk.jsonl";

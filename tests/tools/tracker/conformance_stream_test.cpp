@@ -14,7 +14,7 @@ using recon::kJointCount;
 
 size_t At(Joint joint) { return recon::Index(joint); }
 
-TEST(SdkConformance, FramesCarryNumberAndTimeOfTheDepthFrameTheyWereMadeFrom) {
+TEST(SdkConformance, FramesCarryNumberAndTimeOfTheirDepthFrame) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   for (const int number : {7, 8, 11}) {  // two frames were lost
@@ -25,7 +25,7 @@ TEST(SdkConformance, FramesCarryNumberAndTimeOfTheDepthFrameTheyWereMadeFrom) {
   }
 }
 
-TEST(SdkConformance, NobodyIsAnEmptyFrameAndAnEmptyUserImage) {
+TEST(SdkConformance, AnEmptyRoomGivesNoBodiesAndAnEmptyUserImage) {
   OSSA_NEEDS_MODEL();
   const BodyFrame bodies = Tracker(PlainOptions()).Track(Rendered({}).frame);
   EXPECT_TRUE(bodies.bodies.empty());
@@ -34,7 +34,7 @@ TEST(SdkConformance, NobodyIsAnEmptyFrameAndAnEmptyUserImage) {
   EXPECT_EQ(std::count(bodies.users.data.begin(), bodies.users.data.end(), 0), 320 * 240);
 }
 
-TEST(SdkConformance, TrackingIdsArePositiveDifferentAndNotGivenToSomebodyElse) {
+TEST(SdkConformance, TrackingIdsArePositiveUniqueAndNotReused) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   std::set<int> first;
@@ -48,7 +48,7 @@ TEST(SdkConformance, TrackingIdsArePositiveDifferentAndNotGivenToSomebodyElse) {
     EXPECT_EQ(first.count(body.id), 0U);
 }
 
-TEST(SdkConformance, NoMoreUsersThanAskedForAndTheyKeepTheirPlaces) {
+TEST(SdkConformance, MaxUsersLimitsThePeopleAndKeepsTheFirst) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options = PlainOptions();
   options.max_users = 1;
@@ -81,7 +81,7 @@ TEST(SdkConformance, JointsMapToTheirOwnersPixelsOfTheDepthImage) {
   }
 }
 
-TEST(SdkConformance, PositionIsTheMiddleOfTheUsersPixels) {
+TEST(SdkConformance, PositionIsTheCentroidOfTheUsersPixels) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.4, 2.5)});
   const BodyFrame bodies = Tracker(PlainOptions()).Track(render.frame);
@@ -99,7 +99,7 @@ TEST(SdkConformance, PositionIsTheMiddleOfTheUsersPixels) {
   EXPECT_LT((bodies.bodies[0].position_m - sum / pixels).norm(), 0.02);
 }
 
-TEST(SdkConformance, AHierarchicalOrientationIsTheBonesTurnAgainstItsParent) {
+TEST(SdkConformance, AHierarchicalOrientationIsRelativeToTheParentBone) {
   OSSA_NEEDS_MODEL();
   const BodyFrame bodies = Tracker(PlainOptions()).Track(Rendered({PersonAt(0, 2.5)}).frame);
   ASSERT_EQ(bodies.bodies.size(), 1U);

@@ -28,7 +28,7 @@ BodyFrame TrackOnce(const TrackerOptions& options, const CapsuleRender& render) 
   return Tracker(options).Track(render.frame);
 }
 
-TEST(SdkConformance, UserIndexImageSaysWhosePixelEachIs) {
+TEST(SdkConformance, UserImageHasTheBodyIdOfEachPixel) {
   OSSA_NEEDS_MODEL();
   const CapsuleRender render = Rendered({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.8)});
   const BodyFrame bodies = TrackOnce(PlainOptions(), render);
@@ -87,7 +87,7 @@ TEST(SdkConformance, TwentyJointsHaveStatesAndSeenOnesLieOnTheBody) {
   }
 }
 
-TEST(SdkConformance, RawReconstructedAndSmoothedStandSideBySide) {
+TEST(SdkConformance, RawReconstructedAndSmoothedAreAllReturned) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options;
   options.smoothing = SmoothingPreset("default");
@@ -131,7 +131,7 @@ void PrintTo(const EdgeCase& edge, std::ostream* out) { *out << edge.name; }
 
 class ClippedEdges : public testing::TestWithParam<EdgeCase> {};
 
-TEST_P(ClippedEdges, SayWhichBorderCutsTheBody) {
+TEST_P(ClippedEdges, NameTheBorderThatCutsTheBody) {
   OSSA_NEEDS_MODEL();
   const BodyFrame bodies =
       TrackOnce(PlainOptions(), Rendered({PersonAt(GetParam().x_m, GetParam().z_m)}));
@@ -189,7 +189,7 @@ TEST(SdkConformance, NearRangeSeesPeopleWithinThreeMetresOnly) {
       2U);
 }
 
-TEST(SdkConformance, ChosenUsersAreTrackedTheOthersByPositionOnly) {
+TEST(SdkConformance, UsersNotChosenHaveAPositionOnly) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   const std::vector<CapsulePose> people = {PersonAt(-0.6, 2.5), PersonAt(0.6, 2.8)};
@@ -218,7 +218,7 @@ int IdAt(const BodyFrame& bodies, double x_m, double z_m) {
   return 0;
 }
 
-TEST(SdkConformance, TwoWhoPassEachOtherKeepTheirIdentities) {
+TEST(SdkConformance, TwoPeopleWhoPassEachOtherKeepTheirIds) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   int near_id = 0, far_id = 0;
@@ -237,7 +237,7 @@ TEST(SdkConformance, TwoWhoPassEachOtherKeepTheirIdentities) {
   }
 }
 
-TEST(SdkConformance, APersonIsThereFromTheFirstFrameAndComesBackAsWhoTheyWere) {
+TEST(SdkConformance, APersonIsTrackedFromTheFirstFrameAndKeepsTheirIdOnReturn) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   const BodyFrame first = tracker.Track(Rendered({PersonAt(0, 2.5)}, 0).frame);
@@ -286,7 +286,7 @@ TEST(SdkConformance, TheSkeletonSpaceHasXToTheSensorsLeftAndYUp) {
   EXPECT_GT(depth::BackProject(camera, 320, 10, 1000).y(), 0);
 }
 
-TEST(SdkConformance, ATimeThatIsNoneIsRefused) {
+TEST(SdkConformance, NonFiniteTimesAreRefused) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   depth::DepthFrame frame = Rendered({}).frame;
@@ -294,7 +294,7 @@ TEST(SdkConformance, ATimeThatIsNoneIsRefused) {
   EXPECT_THROW(tracker.Track(frame), InputError);
 }
 
-TEST(SdkConformance, ACameraThatCannotBeIsRefused) {
+TEST(SdkConformance, InvalidCamerasAreRefused) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   depth::DepthFrame frame = Rendered({}).frame;

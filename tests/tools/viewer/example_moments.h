@@ -17,7 +17,7 @@ inline ViewerOptions AnyPort(bool keeps = false) {
   return options;
 }
 
-/// A frame whose content tells its index: depth by ExampleFrame, skeletons by a joint's position.
+/// A frame with a content specific to its index: depth by ExampleFrame, skeletons by a joint.
 inline Moment ExampleMoment(int index) {
   Moment moment;
   moment.depth = test::ExampleFrame(index);

@@ -20,9 +20,9 @@ std::string RecordingIn(const TemporaryFolder& folder) {
   return begin(files) == end(files) ? "" : begin(files)->path().string();
 }
 
-class AfterAFrameThatCannotBeRecorded : public testing::TestWithParam<depth::DepthFrame> {};
+class UnrecordableFrame : public testing::TestWithParam<depth::DepthFrame> {};
 
-TEST_P(AfterAFrameThatCannotBeRecorded, WhatCameBeforeIsKept) {
+TEST_P(UnrecordableFrame, KeepsTheFramesBeforeIt) {
   const TemporaryFolder folder;
   Recorder recorder(folder.path());
   recorder.Ask(true);
@@ -42,10 +42,10 @@ depth::DepthFrame TooDeepFrame() {
   return frame;
 }
 
-INSTANTIATE_TEST_SUITE_P(Recorder, AfterAFrameThatCannotBeRecorded,
+INSTANTIATE_TEST_SUITE_P(Recorder, UnrecordableFrame,
                          testing::Values(TooDeepFrame(), ExampleFrame(5, 16, 12)));
 
-TEST(Recorder, ThatCannotEndItsFileSaysSo) {
+TEST(Recorder, ReportsAFileThatCannotBeFinished) {
   const TemporaryFolder folder;
   const auto gone = folder.path() / "gone";
   std::filesystem::create_directory(gone);
@@ -58,7 +58,7 @@ TEST(Recorder, ThatCannotEndItsFileSaysSo) {
   EXPECT_NE(recorder.said().find("nothing is kept"), std::string::npos) << recorder.said();
 }
 
-TEST(Recorder, ASecondRecordingOfTheSameSecondHasANameOfItsOwn) {
+TEST(Recorder, NamesTwoRecordingsOfTheSameSecondDifferently) {
   const TemporaryFolder folder;
   constexpr std::time_t kNow = 1'700'000'000;
   const std::string first = NameOfNewFile(folder.path(), kNow);

@@ -23,8 +23,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Browsers hold connections in store; some send a byte now and then.
-TEST(Viewer, TwoHundredSlowConnectionsDoNotStopThePage) {
+// Browsers open spare connections; some clients send a byte now and then.
+TEST(Viewer, ServesThePageBesideTwoHundredSlowConnections) {
   constexpr size_t kSlow = 200;
   const auto started = std::chrono::steady_clock::now();
   {
@@ -69,7 +69,7 @@ class AllFilesButOne {
   std::vector<int> files_;
 };
 
-TEST(Viewer, WhereNoMoreFilesCanBeOpenedWhoeverKnocksWaitsAndCostsNothing) {
+TEST(Viewer, WaitsIdlyWithoutFreeFileDescriptors) {
   const Viewer viewer(AnyPort());
   auto files = std::make_optional<AllFilesButOne>();
   const Client client(viewer.port());  // takes the last one
@@ -83,7 +83,7 @@ TEST(Viewer, WhereNoMoreFilesCanBeOpenedWhoeverKnocksWaitsAndCostsNothing) {
 }
 
 // More connections than are held at a time, each with a request that it does not end.
-TEST(Viewer, AFloodTakesNoMemoryForLong) {
+TEST(Viewer, FreesTheMemoryOfAFloodOfRequests) {
   if (test::kSanitized) GTEST_SKIP() << "what is freed is kept to watch it";
   Viewer viewer(AnyPort());
   const double before = ResidentMegabytes();
@@ -96,8 +96,8 @@ TEST(Viewer, AFloodTakesNoMemoryForLong) {
   EXPECT_LT(ResidentMegabytes() - before, kMost_mb);
 }
 
-// It asks and never reads: its line is full, and nobody waits for it.
-TEST(Viewer, ABrowserThatReadsNothingHoldsNobodyUp) {
+// A client that sends requests and never reads: its buffer is full, others are still served.
+TEST(Viewer, ServesOtherPagesWhileOneReadsNothing) {
   Viewer viewer(AnyPort());
   viewer.Show(ExampleMoment(0));
   PageClient stuck(viewer.port()), page(viewer.port());
@@ -108,8 +108,8 @@ TEST(Viewer, ABrowserThatReadsNothingHoldsNobodyUp) {
   }
 }
 
-// Frames come from one thread while browsers ask from others.
-TEST(Viewer, ShowsWhileItIsAsked) {
+// Frames come from one thread while requests come from others.
+TEST(Viewer, AcceptsMomentsWhileItAnswersRequests) {
   Viewer viewer(AnyPort(true));
   std::atomic<bool> done = false;
   std::thread asking([&] {

@@ -28,7 +28,7 @@ std::string DepthBytes(int index) {
   return {reinterpret_cast<const char*>(mm.data()), mm.size() * sizeof(uint16_t)};
 }
 
-TEST(Viewer, AnswersThisMachineAndNoPageElsewhere) {
+TEST(Viewer, AnswersOnlyThisMachineAndItsOwnOrigin) {
   const Viewer viewer(AnyPort());
   for (const char* host : {"127.0.0.1", "localhost", "localhost:9000", "[::1]:9000"}) {
     const auto request = std::string("GET /state HTTP/1.1\r\nHost: ") + host;
@@ -40,7 +40,7 @@ TEST(Viewer, AnswersThisMachineAndNoPageElsewhere) {
   }
 }
 
-TEST(Viewer, TakesNoLargeRequest) {
+TEST(Viewer, RefusesLargeRequests) {
   const Viewer viewer(AnyPort());
   EXPECT_EQ(AnswerTo(viewer.port(),
                      "GET /state HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1200000000"),
@@ -50,7 +50,7 @@ TEST(Viewer, TakesNoLargeRequest) {
   EXPECT_EQ(AnswerTo(viewer.port(), "\x16\x03\x01 no HTTP"), "HTTP/1.1 400 Bad Request");
 }
 
-TEST(Viewer, OtherMachinesNeedTheToken) {
+TEST(Viewer, RequiresTheTokenFromOtherMachines) {
   ViewerOptions options = AnyPort();
   options.address = "0.0.0.0";
   EXPECT_THROW(Viewer{options}, InputError);
@@ -86,16 +86,16 @@ std::string RefusalAt(const std::string& address, int port) {
   return "";
 }
 
-TEST(Viewer, SaysWhyItCannotServe) {
+TEST(Viewer, ReportsWhyItCannotServe) {
   const Viewer viewer(AnyPort());
   EXPECT_NE(RefusalAt("127.0.0.1", viewer.port()).find("it is taken"), std::string::npos);
-  // Of a network for documents (RFC 5737): nobody has it.
+  // An address reserved for documentation (RFC 5737), which no machine has.
   const std::string elsewhere = RefusalAt("192.0.2.7", 0);
   EXPECT_NE(elsewhere.find("192.0.2.7: expected an IP address of this machine"), std::string::npos)
       << elsewhere;
 }
 
-TEST(Viewer, OpensNoSocketForAPageOfAnotherPlace) {
+TEST(Viewer, RefusesAWebSocketOfAnotherOrigin) {
   const Viewer viewer(AnyPort());
   const std::string upgrade =
       "GET /socket HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
@@ -105,7 +105,7 @@ TEST(Viewer, OpensNoSocketForAPageOfAnotherPlace) {
             "HTTP/1.1 101 Switching Protocols");
 }
 
-TEST(Viewer, GivesEveryFrameOfARecordingWithItsOwnSkeletons) {
+TEST(Viewer, SendsEveryFrameOfARecordingWithItsOwnSkeletons) {
   Viewer viewer(AnyPort(true));
   for (int f = 0; f < 12; ++f) viewer.Show(ExampleMoment(f));
   viewer.Complete();
@@ -125,7 +125,7 @@ TEST(Viewer, GivesEveryFrameOfARecordingWithItsOwnSkeletons) {
 }
 
 // To a phone every second pixel is sent.
-TEST(Viewer, SendsFewerPixelsWhereThatIsAsked) {
+TEST(Viewer, SendsReducedImagesOnRequest) {
   Viewer viewer(AnyPort());
   viewer.Show(ExampleMoment(5));
   PageClient page(viewer.port());
@@ -136,8 +136,8 @@ TEST(Viewer, SendsFewerPixelsWhereThatIsAsked) {
   EXPECT_EQ(pictures.substr(2, 2), DepthBytes(5).substr(4, 2)) << "the third pixel is the second";
 }
 
-// However many frames are shown: a picture takes time that whoever tracks wants.
-TEST(Viewer, SendsAPageNoMorePicturesThanACameraHas) {
+// Encoding a picture takes processor time from the tracker: its rate is limited.
+TEST(Viewer, LimitsThePictureRateToThatOfTheCamera) {
   constexpr int kPictures = 20;
   Viewer viewer(AnyPort());
   std::atomic<bool> done = false;
@@ -159,7 +159,7 @@ TEST(Viewer, SendsAPageNoMorePicturesThanACameraHas) {
   EXPECT_GT(took.count(), (kPictures - 2) / 32.0) << "two may come at once, after that 32 a second";
 }
 
-TEST(Viewer, OfACameraTheNewestIsGivenOnceItIsAnother) {
+TEST(Viewer, SendsTheNewestFrameOfACameraOnce) {
   Viewer viewer(AnyPort());
   viewer.Show(ExampleMoment(0));
   viewer.Show(ExampleMoment(1));
@@ -173,7 +173,7 @@ TEST(Viewer, OfACameraTheNewestIsGivenOnceItIsAnother) {
   EXPECT_EQ(state["frames"], 3) << "nothing came within a second";
 }
 
-TEST(Viewer, WhatCannotBeWishedForIsSaid) {
+TEST(Viewer, ReportsInvalidRequests) {
   ViewerOptions options = AnyPort();
   options.settings = Settings{.method = "best", .smoothing = ""};
   options.methods = {"best", "holt"};
@@ -188,7 +188,7 @@ TEST(Viewer, WhatCannotBeWishedForIsSaid) {
   EXPECT_FALSE(viewer.TakeSettings());
 }
 
-TEST(Viewer, SettingsAreTakenOnce) {
+TEST(Viewer, HandsOutNewSettingsOnce) {
   ViewerOptions options = AnyPort();
   options.settings = Settings{.method = "best", .smoothing = ""};
   options.methods = {"best", "holt"};
@@ -207,7 +207,7 @@ TEST(Viewer, SettingsAreTakenOnce) {
   EXPECT_EQ(nlohmann::json::parse(page.Ask(R"({"state":true})"))["refused"], "no such file");
 }
 
-TEST(Viewer, TheRecordButtonRecords) {
+TEST(Viewer, RecordsOnRequest) {
   const test::TemporaryFolder folder;
   ViewerOptions options = AnyPort();
   options.recordings = folder.path();
@@ -223,7 +223,7 @@ TEST(Viewer, TheRecordButtonRecords) {
   EXPECT_EQ(source->Read(milliseconds(5000)).frame.depth_mm, test::ExampleFrame(0).depth_mm);
 }
 
-TEST(Viewer, ASpanIsExportedInEveryFormat) {
+TEST(Viewer, ExportsASpanInEveryFormat) {
   Viewer viewer(AnyPort(true));
   for (int f = 0; f < 9; ++f) viewer.Show(ExampleMoment(f));
   const std::string lines = Get(viewer.port(), "/export?format=jsonl&from=2&to=4");
@@ -239,7 +239,7 @@ TEST(Viewer, ASpanIsExportedInEveryFormat) {
             std::string::npos);
 }
 
-TEST(Viewer, SolidsAreGivenWithTheirMoment) {
+TEST(Viewer, SendsSolidsWithTheirFrame) {
   Viewer viewer(AnyPort(true));
   Moment moment = ExampleMoment(0);
   moment.solids.push_back(
@@ -254,7 +254,7 @@ TEST(Viewer, SolidsAreGivenWithTheirMoment) {
 }
 
 // Upright along y, a metre long: what the page draws is where the bones are.
-TEST(Viewer, ACapsuleLiesAlongItsBone) {
+TEST(Viewer, PlacesACapsuleAlongItsBone) {
   recon::Posture posture;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     posture.position_m[j] = {0.0, 0.1 * static_cast<double>(j), 2.0};
@@ -269,7 +269,7 @@ TEST(Viewer, ACapsuleLiesAlongItsBone) {
   }
 }
 
-TEST(Viewer, OverlaysAreGivenLineByLine) {
+TEST(Viewer, SendsOverlaysLineByLine) {
   ViewerOptions options = AnyPort(true);
   recon::SkeletonSequence sequence;
   for (int f = 0; f < 3; ++f) sequence.frames.push_back(ExampleMoment(f).layers[0]);
@@ -286,7 +286,7 @@ TEST(Viewer, OverlaysAreGivenLineByLine) {
 }
 
 // A camera that was set up again an hour later, and a clock that was put back.
-TEST(PlaybackClock, SkipsPausesAndBeginsAnewWhereTimesRunBackwards) {
+TEST(PlaybackClock, SkipsPausesAndRestartsWhereTimesRunBackwards) {
   PlaybackClock clock;
   const auto start = PlaybackClock::Clock::now();
   const auto is_soon = [&](double time_s) {
@@ -301,7 +301,7 @@ TEST(PlaybackClock, SkipsPausesAndBeginsAnewWhereTimesRunBackwards) {
   EXPECT_TRUE(is_soon(1.5));
 }
 
-TEST(Viewer, ThePageNamesNothingOfElsewhere) {
+TEST(Viewer, PageReferencesNoOtherHost) {
   const Viewer viewer(AnyPort());
   const Client client(viewer.port());
   client.Say("GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");

@@ -15,7 +15,7 @@
 
 namespace ossa::viewer {
 
-/// A client of the viewer that says what it likes.
+/// A raw HTTP client of the viewer, which may send anything.
 class Client {
  public:
   explicit Client(int port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -32,7 +32,7 @@ class Client {
   Client(const Client&) = delete;
   ~Client() { close(socket_); }
   void Say(const std::string& text) const { send(socket_, text.data(), text.size(), MSG_NOSIGNAL); }
-  /// All that comes until the other side ends.
+  /// All bytes until the other side closes.
   std::string Rest() const {
     std::string all;
     char piece[65536];
@@ -42,7 +42,7 @@ class Client {
       all.append(piece, static_cast<size_t>(size));
     }
   }
-  /// The first line of what comes back; empty when nothing does.
+  /// The first line of the answer; empty without one.
   std::string Answer() const {
     std::string text(4096, '\0');
     const ssize_t size = recv(socket_, text.data(), text.size(), 0);
@@ -68,7 +68,7 @@ inline std::string Get(int port, const std::string& target) {
   return head == std::string::npos ? all : all.substr(head + 4);
 }
 
-/// What a page asks and is answered, by a client that is not ours (Boost.Beast's).
+/// The page's side of the WebSocket, by an independent client (Boost.Beast).
 class PageClient {
  public:
   explicit PageClient(int port) : socket_(context_) {
