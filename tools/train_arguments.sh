@@ -1,17 +1,17 @@
-# What the scripts train_* beside this file have in common. Each reads it first:
+# Common code of the scripts train_* in this folder. Each reads it first:
 #   . "$(dirname "$0")/train_arguments.sh"
-# which answers --help with the comment at the script's top, refuses wrong arguments before anything is
-# made, and sets `ossa` to the command's whole path.
+# It prints the comment at the script's top for --help, refuses wrong arguments before anything is
+# written, and sets `ossa` to the absolute path of the command.
 
-say_usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"; }
+print_usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"; }
 
-# fail TEXT: one line, as ossa says it.
+# fail TEXT: prints one line, as ossa does, and exits.
 fail() {
   echo "$(basename "$0"): $*" >&2
   exit 1
 }
 
-# part_of CLIP: what a CMU clip, SUBJECT_NN.bvh, is for. Nobody is in two parts.
+# part_of CLIP: the part of a CMU clip, SUBJECT_NN.bvh. Each subject is in one part only.
 part_of() {
   case ${1##*/} in
     03_* | 07_* | 60_*) echo validation ;;
@@ -20,7 +20,7 @@ part_of() {
   esac
 }
 
-# clips_of FOLDER PART: its clips, a line each; none is a failure.
+# clips_of FOLDER PART: its clips, one per line; fails without any.
 clips_of() {
   found=
   for clip in "$1"/*.bvh; do
@@ -31,8 +31,8 @@ clips_of() {
   [ -n "$found" ] || fail "$1: expected clips of the $2 part, SUBJECT_NN.bvh, found none"
 }
 
-# link_clips FOLDER PART...: links to its clips of each part, in cmu30_PART. `ossa render` knows by that
-# name whose terms they come with.
+# link_clips FOLDER PART...: links to its clips of each part, in cmu30_PART. `ossa render` recognises by
+# that name that CMU's terms apply.
 link_clips() {
   from=$1
   shift
@@ -45,12 +45,12 @@ link_clips() {
 
 case ${1:-} in
   -h | --help)
-    say_usage
+    print_usage
     exit 0
     ;;
 esac
 if [ $# -lt 2 ] || [ $# -gt 3 ]; then
-  say_usage >&2
+  print_usage >&2
   exit 2
 fi
 [ -d "$1" ] || fail "$1: expected a folder, found none"
