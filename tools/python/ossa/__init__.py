@@ -7,26 +7,26 @@
         for body in frame.bodies:
             print(time_s, body.id, body["Head"])
 
-Tracker           depth images to bodies; Frame, Body, Fit, Mesh, Proposals are what it gives
+Tracker           depth images to bodies; its results are Frame, Body, Fit, Mesh, Proposals
 Camera            intrinsics of a depth camera; Camera.preset("kinect-v2")
-open              whatever `ossa track SOURCE` opens: devices, .oni, .mkv, .bag, PNG folders
-Forest            one image's body parts and probabilities
+open              any SOURCE of `ossa track`: devices, .oni, .mkv, .bag, PNG folders
+Forest            body parts and probabilities of one image
 Sequence          recorded skeletons: read_skeletons, read_recordings, write_skeletons
 reconstruct       methods that make recorded skeletons complete and plausible
 compare           results against truth; evaluate: forests; learn: a sensor's errors
 JOINTS, PARENTS, PARTS, SEGMENTS, METHODS, STATES, CAMERA_PRESETS, SMOOTHINGS, SKELETON_FORMATS:
-    names
+    constants
 
 Camera space is metres, right-handed, origin at the sensor, x to the sensor's left, y up, z forward.
 Depth is uint16 [height, width] in millimetres, 0 = no reading. Quaternions are w x y z. Left is the
-person's left. Whatever argument cannot be raises ossa.InputError, a ValueError, in one line.
-help(ossa.Tracker) and so on tell every argument.
+person's left. Invalid arguments raise ossa.InputError, a ValueError with a message of one line.
+help(ossa.Tracker) and so on describe every argument.
 """
 
 from ._camera import Camera
 from ._forest import Forest
 from ._frames import Body, Fit, Frame, Mesh, Proposals, Thing
-from ._judge import Comparison, compare, evaluate, learn
+from ._evaluation import Comparison, compare, evaluate, learn
 from ._names import (
     CAMERA_PRESETS,
     JOINTS,

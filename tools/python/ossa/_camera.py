@@ -13,7 +13,7 @@ from ._names import CAMERA_PRESETS
 
 ROTATIONS = (0, 90, 180, 270, "auto")
 
-# Of each preset the images that its maker's software gives by default, width x height.
+# The default image size of each camera, width x height.
 _USUAL_SIZE = {
     "kinect-v1": (640, 480), "kinect-v2": (512, 424), "azure-nfov": (640, 576),
     "azure-wfov": (512, 512), "xtion": (640, 480), "d415": (1280, 720), "d435": (848, 480),
@@ -25,7 +25,7 @@ _USUAL_SIZE = {
 
 @dataclasses.dataclass(frozen=True)
 class Camera:
-    """A pinhole depth camera without distortion: what it sees at which pixel, and how it is mounted.
+    """A pinhole depth camera without distortion: intrinsics and mounting.
 
     Camera space is metres, right-handed, origin at the sensor, x to the sensor's left, y up, z
     forward (the Kinect SDK's skeleton space): u = cx - fx x / z, v = cy - fy y / z, pixel centres
@@ -38,17 +38,17 @@ class Camera:
     cx, cy : float
         Principal point, pixels from the centre of the upper left pixel.
     width, height : int, optional
-        The image's size that these numbers are of. For images of another size they are scaled.
-        Left out: they are of whatever images come.
+        The image size of these intrinsics, pixels. For images of another size they are scaled.
+        Left out: they apply to images of any size.
     rotate : 0, 90, 180, 270 or "auto"
-        Degrees by which its images must be turned clockwise for people to stand upright in them.
-        "auto" finds out by the people seen. Whatever the tracker gives stays in the space and
-        images of the camera as it is, not turned.
+        Degrees by which its images must be rotated clockwise for people to stand upright in them.
+        "auto" detects it from the people seen. Results stay in the space and the images of the
+        camera as mounted, not rotated.
 
     Raises
     ------
     ossa.InputError
-        For a camera that cannot be.
+        For invalid intrinsics.
     """
 
     fx: float
@@ -77,16 +77,16 @@ class Camera:
         height: Optional[int] = None,
         rotate: Union[int, str] = 0,
     ) -> Camera:
-        """The camera of that name, by its maker's or its users' figures.
+        """The camera of that name, with published intrinsics.
 
-        An own calibration is better by some pixels. Without a size it serves images of any size
-        that the sensor gives, cropped and scaled as the sensor does.
+        Your own calibration is more accurate by some pixels. Without a size it applies to images of
+        any size that the sensor delivers, cropped and scaled as the sensor does.
 
         Parameters
         ----------
         name : str
             One of ossa.CAMERA_PRESETS: "kinect-v1", "kinect-v2", "azure-nfov", "azure-wfov",
-            "xtion", "d415", "d435", "d455", "femto"; of depth aligned to colour images
+            "xtion", "d415", "d435", "d455", "femto"; for depth aligned to colour images
             "kinect-v1-color", "kinect-v2-color", "azure-color", "d415-color", "d435-color".
         width, height : int, optional
             The images' size.
@@ -103,7 +103,7 @@ class Camera:
         return Camera(fx, fy, cx, cy, w, h, rotate, name if width is None else None)
 
     def for_size(self, width: int, height: int) -> Camera:
-        """This camera's numbers for images of another size.
+        """This camera for images of another size: intrinsics scaled.
 
         Parameters
         ----------
@@ -120,7 +120,7 @@ class Camera:
         return Camera(self.fx * sx, self.fy * sy, self.cx * sx, self.cy * sy, w, h, self.rotate)
 
     def points(self, depth_mm: npt.NDArray[np.uint16]) -> npt.NDArray[np.float64]:
-        """The surface seen, camera space.
+        """Back-projects a depth image to points of camera space.
 
         Parameters
         ----------
@@ -142,7 +142,7 @@ class Camera:
         return np.stack([x, y, z], axis=-1)
 
     def project(self, points_m: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Where points of camera space are in the image.
+        """Projects points of camera space into the image.
 
         Parameters
         ----------
@@ -152,7 +152,7 @@ class Camera:
         Returns
         -------
         float64 [..., 2]
-            u v, pixels; of the size that this camera's numbers are of.
+            u v, pixels, at this camera's image size.
         """
         try:
             points = np.asarray(points_m, dtype=np.float64)

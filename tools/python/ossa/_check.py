@@ -1,5 +1,5 @@
-"""What arguments must be: each function returns its value as the extension takes it, or raises
-InputError in one line that names the argument, what was expected and what was found."""
+"""Checks of arguments: each function returns its value as the extension accepts it, or raises
+InputError with one line that names the argument, what was expected and what was found."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ import numpy as np
 
 from ._native import InputError as InputError
 
-InputError.__doc__ = """What was given is wrong: an argument, a file, a device. A ValueError whose text is one
-line that names it, what was expected and what was found."""
+InputError.__doc__ = """An invalid argument, file or device. A ValueError whose message is one line that names it,
+what was expected and what was found."""
 
 _LONGEST = 60  # characters of a value that a message quotes
 
 
 def found(value: object) -> str:
-    """A value as messages show it: short, on one line, without running code of its own."""
+    """A value for messages: short, on one line, without calling its __repr__."""
     if isinstance(value, np.ndarray):
         return f"{value.dtype} {list(value.shape)}"
     if value is None or type(value) in (str, bool, int, float):
@@ -104,8 +104,8 @@ def optional_path(name: str, value: Any) -> str:
 
 
 def plain(name: str, expected: str, value: Any) -> Any:
-    """A NumPy array, where it lies: those mapped from a file included. One with a mask says something
-    that would be lost."""
+    """A NumPy array, not copied, also one mapped from a file. Masked arrays are refused, because the
+    mask would be lost."""
     if not isinstance(value, np.ndarray):
         raise refuse(name, f"a NumPy array, {expected}", value)
     if isinstance(value, np.ma.MaskedArray):
@@ -119,8 +119,8 @@ def image(depth_mm: Any) -> Any:
 
 
 def array(name: str, value: Any, shape: Sequence[int | None], dtype: Any) -> Any:
-    """An array of this shape (None: any length) and type, made from whatever holds such numbers. None
-    is rounded, wrapped round or taken from under a mask."""
+    """An array of this shape (None: any length) and type, converted from any array-like. Values are
+    never rounded, wrapped or taken from under a mask."""
     sides = ", ".join("any" if side is None else str(side) for side in shape)
     expected = f"{np.dtype(dtype).name} [{sides}]"
     if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):

@@ -1,4 +1,4 @@
-"""ossa.Forest: which pixel shows which part of the body."""
+"""ossa.Forest: body parts of pixels, and joint proposals."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def _mask_option(mask: Any) -> Any:
 
 
 class Forest:
-    """A body part forest (Shotton et al. 2011): pixels to class probabilities to places of joints.
+    """A body part forest (Shotton et al. 2011): pixels to class probabilities to joint proposals.
 
-    Knows one image at a time and nobody in it: the pixels that it is given are taken for one
-    person. ossa.Tracker finds people.
+    It works on single images and does not detect people: the given pixels are assumed to show one
+    person. ossa.Tracker detects people.
 
     Parameters
     ----------
@@ -40,12 +40,12 @@ class Forest:
 
     @property
     def targets(self) -> list[str]:
-        """What it proposes places of; of the shipped forest the 20 joints."""
+        """Names of the proposed targets; of the shipped forest the 20 joints."""
         return self._native.targets()
 
     @property
     def card(self) -> dict[str, Any]:
-        """What it was trained on and how well it does, as `ossa info` shows it."""
+        """Training data and accuracy, as `ossa info` shows them."""
         card = json.loads(self._native.card() or "{}")
         return dict(card)
 
@@ -55,24 +55,24 @@ class Forest:
         camera: Camera,
         mask: Optional[npt.NDArray[Any]] = None,
     ) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.float32]]:
-        """Parts of one person's pixels.
+        """Classifies the pixels of one person.
 
         Parameters
         ----------
         depth_mm : uint16 [H, W]
             Millimetres along the optical axis, 0 = no reading; C order. It is not copied.
         camera : ossa.Camera
-            What it was taken by.
+            The camera of the image.
         mask : bool or uint8 [H, W], optional
-            The person: where it is not 0, as `frame.users == body.id`. Left out: all pixels with a
-            reading; the image then shows one person and nothing else.
+            Not 0 at the person's pixels, as `frame.users == body.id`. Left out: all pixels with a
+            reading; the image must then show one person and nothing else.
 
         Returns
         -------
         parts : uint8 [H, W]
-            The likeliest class, once it is known where the joints are; 0 outside of the person.
+            The most likely class, after relabelling by the proposed joints; 0 outside the person.
         probabilities : float32 [H, W, C]
-            Of each class by the trees alone; they sum to 1, and are 0 outside of the person.
+            Of each class by the trees alone, sum 1; 0 outside the person.
         """
         image = _check.image(depth_mm)
         return self._native.classify(image, native_camera(camera, image), _mask_option(mask))
@@ -83,7 +83,7 @@ class Forest:
         camera: Camera,
         mask: Optional[npt.NDArray[Any]] = None,
     ) -> dict[str, Proposals]:
-        """Where one person's joints may be: the modes of each target's density estimate.
+        """Joint proposals of one person: the modes of each target's density estimate.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What the tracker says of an image: ossa.Frame, its bodies, and what is fitted to them.
+"""Results of the tracker for an image: ossa.Frame, its bodies, and their fits.
 
 All of them are equal by identity (eq=False): arrays have no one truth of being equal, and `body in
 frame.bodies` must not fail for it.
@@ -23,7 +23,7 @@ _EDGES = {"right": 1, "left": 2, "top": 4, "bottom": 8}
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Proposals:
-    """Where one joint may be, as the forest sees it: the modes of its density estimate, best first.
+    """Proposals of one joint by the forest: the modes of its density estimate, best first.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class Proposals:
     confidence : float64 [n]
         In [0, 1].
     seen : bool [n]
-        False: no surface of its own voted; inferred from the other joints.
+        False: inferred from the other joints, without votes of pixels near it.
     """
 
     positions: Floats
@@ -50,14 +50,14 @@ def proposals_from(rows: Floats) -> Proposals:
 
 @dataclasses.dataclass(frozen=True, repr=False, eq=False)
 class Mesh:
-    """The skin of a fitted body as triangles.
+    """The triangle mesh of a fitted body.
 
     Attributes
     ----------
     vertices : float64 [V, 3]
         Camera space, metres.
     faces : int32 [F, 3]
-        Vertices of each triangle, counter-clockwise from outside; the same of all bodies.
+        Vertex indices of each triangle, counter-clockwise from outside; the same for all bodies.
     """
 
     vertices: Floats
@@ -69,31 +69,31 @@ class Mesh:
 
 @dataclasses.dataclass(frozen=True, repr=False, eq=False)
 class Fit:
-    """A body whose surface explains the depth image, unless Tracker(fit=False).
+    """The body fitted to the depth image, unless Tracker(fit=False).
 
     Attributes
     ----------
     joints : float64 [20, 3]
         The joints of that body, camera space, metres.
     shape : float64 [10]
-        Components of what the person is like and wears, standard deviations from the mean body.
+        Components of body shape and clothes, standard deviations from the mean body.
     stature_m : float
         Body height, metres, by the shape of this frame alone.
     explained : float
         Share of the person's pixels within 3 cm of the surface, [0, 1].
     score : float
-        The same less the share of the surface through which the camera sees; 1 is perfect.
+        `explained` less the share of the surface that the camera sees through; 1 is perfect.
     median_residual_m : float
-        Of the pixels' distances from the surface, metres.
+        Median distance of the pixels from the surface, metres.
     residuals_m : float64 [18]
         Root mean square distance of each segment's pixels (ossa.SEGMENTS), metres; NaN without.
     orientations : float64 [18, 4]
-        Quaternions w x y z, camera from segment: how each is turned from a body that stands facing
-        +z with its left at +x.
+        Quaternions w x y z, camera from segment: rotation relative to a body that stands facing +z
+        with its left at +x.
     covariance_m2 : float64 [20, 3, 3]
-        How far `joints` may be off: covariance of each, camera axes, square metres.
+        Covariance of the error of each joint, camera axes, square metres.
     mesh : Mesh
-        Its skin.
+        Its mesh.
     """
 
     joints: Floats
@@ -111,7 +111,7 @@ class Fit:
 
     @property
     def mesh(self) -> Mesh:
-        """Its skin, posed when it is first asked for."""
+        """The mesh, computed at first access."""
         if self._mesh is None:
             assert self._skin is not None
             object.__setattr__(self, "_mesh", Mesh(self._skin.vertices(), self._faces.copy()))
@@ -133,38 +133,38 @@ class Body:
     Attributes
     ----------
     id : int
-        The same from frame to frame for as long as the person is followed, from 1.
+        From 1; constant while the person is tracked.
     tracked : bool
         False: only `position` is known (see Tracker.choose_users); joints are NaN, not_tracked.
     position : float64 [3]
-        Middle of the person's visible surface.
+        Centroid of the person's visible surface.
     joints : float64 [20, 3]
         The skeleton.
     states : str [20]
-        "tracked" (seen in the image), "inferred" (guessed from what is seen around it) or
-        "not_tracked" (the position is what is plausible for the rest of the body).
+        "tracked" (seen in the image), "inferred" (estimated from its surroundings) or "not_tracked"
+        (merely plausible for the rest of the body).
     confidence : float64 [20]
-        The forest's own trust in what it saw, [0, 1].
+        Of the observation, by the forest, [0, 1].
     reliability : float64 [20]
-        R_i of Shum 2013, eq. 8: does it move and measure as a joint? [0, 1]
+        R_i of Shum 2013, eq. 8: plausibility of movement and bone lengths, [0, 1].
     orientations : float64 [20, 4]
-        Quaternions w x y z, camera from bone: the bone that ends in the joint has its y axis along
-        the way from its parent (the SDK's absolute orientations).
+        Quaternions w x y z, camera from bone: the y axis of the bone that ends in the joint points
+        from the parent to the joint (the SDK's absolute orientations).
     hierarchical_orientations : float64 [20, 4]
-        The same, each bone's turn against its parent's.
+        The rotation of each bone relative to its parent, w x y z.
     raw : float64 [20, 3]
-        What the forest alone found, in this image alone.
+        Joints of the forest from this image alone.
     refined : float64 [20, 3] or None
-        The raw joints moved by the refinement at the depth image, where there is one.
+        The joints after cascaded refinement; None without it.
     reconstructed : float64 [20, 3]
-        What the method of reconstruction made of them, before physics and smoothing.
+        The joints after the reconstruction method, before physics and smoothing.
     bones_m : float64 [20] or None
-        Length of the bone that ends in each joint, metres (0 of the root), by all frames until now;
-        of methods that keep bones.
+        Length of the bone that ends in each joint, metres (0 of the root), over all frames so far;
+        None for methods that do not keep bone lengths.
     clipped : frozenset of str
-        Which borders of the image cut the person off: "left", "right", "top", "bottom".
+        Image borders that cut the person: "left", "right", "top", "bottom".
     person_score : float
-        How surely this is a person, by forest and pose network, [0, 1].
+        Probability of being a person, by forest and pose network, [0, 1].
     proposals : tuple of 20 Proposals, or None
         With Tracker(proposals=True).
     fit : Fit or None
@@ -193,7 +193,7 @@ class Body:
 
     @property
     def mesh(self) -> Optional[Mesh]:
-        """The fitted body's skin: vertices float64 [V, 3], camera space, metres, and faces int32
+        """The fitted body's mesh: vertices float64 [V, 3], camera space, metres, and faces int32
         [F, 3]; None without a fit."""
         return None if self.fit is None else self.fit.mesh
 
@@ -215,7 +215,7 @@ class Body:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Thing:
-    """Something of Tracker(scene=...) in one frame: camera space, metres.
+    """An object of Tracker(scene=...) in one frame: camera space, metres.
 
     Attributes
     ----------
@@ -238,7 +238,7 @@ class Thing:
 
 @dataclasses.dataclass(frozen=True, repr=False, eq=False)
 class Frame:
-    """What the tracker says of one depth image.
+    """The result of the tracker for one depth image.
 
     Attributes
     ----------

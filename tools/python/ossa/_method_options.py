@@ -35,7 +35,7 @@ def _solver(name: str, value: Any) -> str:
 
 
 class MethodOptions(TypedDict, total=False):
-    """The options by name, for who types them; HELP explains them."""
+    """Type hints of the options by name; HELP describes them."""
 
     neighbours: Optional[int]
     dimensions: Optional[int]
@@ -100,7 +100,7 @@ HELP = """neighbours, dimensions, steps, samples : int, optional
     extend_database : bool, optional
         Of shum-2013: reliable postures join a private copy of the database (False; sec. IX).
     nearby_models : int, optional
-        Of liu-2016 and full-gp: local models asked of each joint (9; Liu 2016, sec. 4.2.2).
+        Of liu-2016 and full-gp: local models used per joint (9; Liu 2016, sec. 4.2.2).
     spatial, temporal, reliability : float, optional
         Of liu-2016 and full-gp: weights of the energy's terms, eq. 22 (0.6, 0.2, 0.2).
     incremental : bool, optional

@@ -16,22 +16,22 @@ PARTS: tuple[str, ...] = _native.parts
 """Names of the labels of part images: 0 background, 1 to 31 body parts, 32 any object held."""
 
 METHODS: tuple[str, ...] = tuple(str(row["name"]) for row in _native.methods)
-"""Methods of reconstruction that Tracker and reconstruct take by name."""
+"""Names of reconstruction methods, for Tracker and reconstruct."""
 
 CAMERA_PRESETS: tuple[str, ...] = _native.camera_presets
-"""Cameras that Camera.preset knows."""
+"""Names of cameras, for Camera.preset."""
 
 SMOOTHINGS: tuple[str, ...] = _native.smoothing_presets
-"""Presets of the filter that joints go through at the end."""
+"""Presets of the final filter of joints."""
 
 SKELETON_FORMATS: tuple[str, ...] = _native.skeleton_formats
-"""Formats that read_skeletons tells by content."""
+"""Formats that read_skeletons recognises by content."""
 
 MOUNTS: tuple[str, ...] = ("auto", "level", "ceiling")
-"""Where a camera may be, of Tracker(mount=...)."""
+"""Mountings of a camera, for Tracker(mount=...)."""
 
 STATES: tuple[str, ...] = ("not_tracked", "inferred", "tracked")
-"""States of a joint: seen in the image (tracked), guessed from what is seen around it (inferred),
+"""States of a joint: seen in the image (tracked), estimated from its surroundings (inferred),
 or merely plausible for the rest of the body (not_tracked)."""
 
 
@@ -41,7 +41,7 @@ SEGMENTS: tuple[str, ...] = (
     "CollarRight", "UpperArmRight", "ForearmRight", "HandRight",
     "ThighLeft", "ShankLeft", "FootLeft", "ThighRight", "ShankRight", "FootRight",
 )  # fmt: skip
-"""The rigid pieces of the body that is fitted to the depth image."""
+"""The rigid segments of the body that is fitted to the depth image."""
 
 
 class Joint(enum.IntEnum):

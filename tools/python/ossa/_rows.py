@@ -1,5 +1,5 @@
-"""What the rows of a Sequence must hold where they go into files and methods. Files have the same
-bounds: what is written must be read again."""
+"""Checks of the rows of a Sequence before they are written or reconstructed, with the bounds of the
+file readers: written files must be readable."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _check_times(rows: Rows) -> None:
 
 
 def _check_ids(rows: Rows) -> None:
-    """Of a frame each once; a frame is rows in a row with one number and one time."""
+    """Each id once per frame; a frame is a run of rows with equal number and time."""
     somebody = rows["ids"] >= 0
     if not somebody.any():
         return

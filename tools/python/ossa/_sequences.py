@@ -58,28 +58,28 @@ class Sequence:
     states : str [R, 20], optional
         "tracked", "inferred", "not_tracked", or "" where the file says nothing.
     ids : int64 [R], optional
-        Whose row it is, 0 or more; -1 nobody's. Left out: all of one person, 1.
+        Id of the person of each row, 0 or more; -1: no body. Left out: all of one person, 1.
     frames : int64 [R], optional
         Numbers of the frames. Left out: a new one with each new time.
     confidence, reliability : float64 [R, 20], optional
-        In [0, 1]; NaN where nothing is said.
+        In [0, 1]; NaN where unknown.
     orientations : float64 [R, 20, 4], optional
-        Quaternions w x y z, camera from bone; NaN where nothing is said.
+        Quaternions w x y z, camera from bone; NaN where unknown.
     floor : float64 [R, 4], optional
         a b c d of a x + b y + c z + d = 0, metres, normal up; NaN where none is known.
     bones_m : float64 [R, 20], optional
-        Metres: bones as a refinement judges them in this frame alone; NaN where there was none.
+        Metres: bone lengths estimated by cascaded refinement from this frame alone; NaN without.
     sensor : str
         "Kinect v2" and "refined joints" have errors that ossa knows.
 
     Attributes
     ----------
     source : str
-        The file it came from.
+        The source file.
     warnings : list of str
-        What was odd in the file and how it was read.
+        Warnings about oddities of the file and how they were read.
     visible : int8 [R, 20]
-        Of truth files: 1 visible, 0 hidden; -1 where nothing is said.
+        Of truth files: 1 visible, 0 hidden; -1 where unknown.
 
     Raises
     ------
@@ -136,7 +136,7 @@ class Sequence:
 
     @property
     def states(self) -> npt.NDArray[np.str_]:
-        """str [R, 20]: "tracked", "inferred", "not_tracked", or "" where nothing is said."""
+        """str [R, 20]: "tracked", "inferred", "not_tracked", or "" where unknown."""
         words: npt.NDArray[np.str_] = _WORDS[self._codes + 1]
         return words
 
@@ -219,7 +219,7 @@ def _to_native(sequence: Sequence) -> dict[str, Any]:
 
 
 def _to_use(sequence: Sequence) -> dict[str, Any]:
-    """For files and methods, which take less than Sequence does."""
+    """Arrays for files and methods, which accept less than Sequence does."""
     rows = _to_native(sequence)
     check_rows(rows)
     return rows
@@ -242,7 +242,7 @@ _OF_BODIES = {"joints": (20, 3), "confidence": (20,), "reliability": (20,), "ori
 
 
 class _Row(NamedTuple):
-    """What is kept of a frame and one of its bodies: neither images nor fits."""
+    """The columns of a frame and one of its bodies, without images and fits."""
 
     frame: int
     time_s: float
@@ -304,7 +304,7 @@ def read_skeletons(
     mapping: Optional[PathLike] = None,
     frame_s: Optional[float] = None,
 ) -> Sequence:
-    """Reads one recording of skeletons: ossa's own, an SDK's, or motion capture, told by content.
+    """Reads one recording of skeletons: ossa's own, an SDK's, or motion capture, recognised by content.
 
     Parameters
     ----------
@@ -312,13 +312,13 @@ def read_skeletons(
         A file, "FILE#truth" or "FILE#observed" of a file that holds both, or "FOLDER#NAME" and
         "ARCHIVE#NAME" of one recording among several.
     format : str, optional
-        One of ossa.SKELETON_FORMATS, where the content does not tell.
+        One of ossa.SKELETON_FORMATS, if the content is ambiguous.
     columns : "truth" or "observed", optional
-        Of files that hold two skeletons side by side.
+        Which skeleton of files that contain two side by side.
     mapping : path, optional
-        Text file of joints' names that are none of those known (docs/files.md).
+        Mapping file for unknown joint names (docs/files.md).
     frame_s : float, optional
-        Seconds from frame to frame, of formats that carry no time.
+        Seconds from frame to frame, for formats without times.
 
     Returns
     -------
@@ -336,7 +336,7 @@ def read_recordings(
     mapping: Optional[PathLike] = None,
     frame_s: Optional[float] = None,
 ) -> dict[str, Sequence]:
-    """All recordings of a folder (searched through), an archive (.tar .tar.gz .zip) or a file.
+    """All recordings of a folder (recursively), an archive (.tar .tar.gz .zip) or a file.
 
     Parameters
     ----------
@@ -364,25 +364,24 @@ def write_skeletons(
 ) -> None:
     """Writes skeletons in the format that the extension names: .jsonl, .csv, .trc, .bvh or .glb.
 
-    TRC and BVH hold one person a file: the first goes to `path`, each other to `path` with _ID
+    TRC and BVH contain one person per file: the first goes to `path`, each other to `path` with _ID
     before the extension. A .glb (glTF 2.0) shows everybody's body in motion. The file appears under
     its name only when complete.
 
     Parameters
     ----------
     sequence : Sequence
-        What to write.
+        The skeletons to write.
     path : path
-        Where to.
+        The output file.
     names : "sdk", "cmu", "mixamo" or "vrm", optional
-        Whose names the bones of a .bvh or .glb have. Left out: the SDK's joints of a .bvh, VRM's
-        bones of a .glb.
+        Naming scheme of the bones of a .bvh or .glb. Left out: "sdk" for a .bvh, "vrm" for a .glb.
     surface, mesh : path, optional
-        Of a .glb: the skin that people wear, .ossasurface and .ossamesh of `ossa surface`; mesh
-        "none": bones alone. Left out: the shipped ones.
+        Of a .glb: the mesh of people, .ossasurface and .ossamesh of `ossa surface`; mesh "none": bones
+        only. Left out: the shipped ones.
     shapes : dict of int to float64 [10], optional
-        Of a .glb: what people are like, Fit.shape by Body.id, of the same surface. Left out: all
-        are like the mean body, stretched to their bones.
+        Of a .glb: body shapes, Fit.shape by Body.id, of the same surface. Left out: the mean shape,
+        stretched to the bone lengths.
     """
     to = _check.path("path", path)
     if names is not None:
@@ -446,7 +445,7 @@ def reconstruct(
     Parameters
     ----------
     sequence : Sequence
-        What was seen. Absent joints and those not tracked are made up.
+        Observed skeletons. Absent joints and those not tracked are reconstructed.
     method : str
         One of ossa.METHODS, or "butterworth": a low pass over the whole recording, for comparison.
     database : path, optional
@@ -454,31 +453,31 @@ def reconstruct(
     prior : path, optional
         .ossaprior of `ossa prior`, for best. Left out: the shipped one.
     learned : path or "none", optional
-        .ossagp of ossa.learn, which liu-2016, full-gp and exemplar need. Left out: best takes off
-        what is known of the errors of the sequence's sensor.
+        .ossagp of ossa.learn, which liu-2016, full-gp and exemplar need. Left out: best corrects
+        the known errors of the sequence's sensor.
     bones : "so-far" or "recording"
-        How long a person's bones are by: the frames until then, or all frames (the same lengths in
-        each of them; of methods that keep bones).
+        Bone lengths by the frames so far, or by all frames (constant over the recording). For methods
+        that keep bones.
     physics : bool
-        Let a mechanical character follow the result (Shum 2013, sec. VII).
+        Let a physical character follow the result (Shum 2013, sec. VII).
     control : "pd" or "motor"
-        With physics: what drives the character.
+        With physics: the controller of the character.
     hinges, joint_limits : bool
-        With physics: elbows and knees bend about one axis; joints keep to people's ranges.
+        With physics: elbows and knees bend about one axis; joints have human ranges.
     cutoff_hz : float, optional
-        Of butterworth, Hz (6).
+        Cut-off frequency of butterworth, Hz (6).
     lag : int or "whole", optional
-        Frames after each that smooth it, 0 to 2, or "whole": as many before and after as help. Left
+        Number of later frames used for smoothing, 0 to 2, or "whole": frames before and after. Left
         out: "whole" with best, else 0.
     seed : int
-        Of the methods that draw samples.
+        For methods that draw samples.
     METHOD_OPTIONS
 
     Returns
     -------
     Sequence
-        All 20 joints in every row with a body, each with its reliability; "tracked" stays, all that
-        was made up is "inferred".
+        All 20 joints in every row with a body, each with its reliability; tracked joints stay
+        "tracked", reconstructed ones are "inferred".
 
     Raises
     ------

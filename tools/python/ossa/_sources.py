@@ -15,7 +15,7 @@ from ._camera import ROTATIONS, Camera
 from ._names import CAMERA_PRESETS
 
 _LOG = logging.getLogger("ossa")
-_WAIT_MS = 100  # between looks for Ctrl-C
+_WAIT_MS = 100  # between checks for Ctrl-C
 _LONGEST_S = 1e6  # eleven days
 
 PathLike = Any  # str or os.PathLike
@@ -27,7 +27,7 @@ class DepthImage(NamedTuple):
     depth_mm: npt.NDArray[np.uint16]
     """uint16 [H, W], millimetres along the optical axis, 0 = no reading."""
     camera: Camera
-    """What it was taken by."""
+    """The camera of the image."""
     time_s: float
     """The sensor's or recording's clock, seconds."""
 
@@ -35,7 +35,7 @@ class DepthImage(NamedTuple):
 class Source(Iterator[DepthImage]):
     """An open SOURCE: iterate over it, or use it in a `with` block. Made by ossa.open.
 
-    What the source had to assume (a camera by the images' size, say) or lost is in `notes`, and is
+    Assumptions of the source (such as a camera by the image size) and losses are in `notes`, and are
     logged by the logger "ossa".
     """
 
@@ -61,7 +61,7 @@ class Source(Iterator[DepthImage]):
         return DepthImage(depth_mm, self._camera_of(camera), time_s)
 
     def _wait_for(self, read: Callable[[int], tuple[Any, ...]]) -> Optional[tuple[Any, ...]]:
-        """What `read` gives of the next image, its status first, how many were lost last; None at the end."""
+        """The next result of `read` (status first, number of lost images last); None at the end."""
         last_frame_s = time.monotonic()
         while True:
             seen = read(_WAIT_MS)
@@ -96,27 +96,27 @@ class Source(Iterator[DepthImage]):
 
     @property
     def camera(self) -> Camera:
-        """That of the images to come."""
+        """The camera of the next images."""
         return self._camera_of(self._native.camera())
 
     @property
     def is_live(self) -> bool:
-        """True of devices, whose images are lost when they are not read in time."""
+        """True for devices, whose images are lost if they are not read in time."""
         return self._native.is_live()
 
     @property
     def frame_count(self) -> Optional[int]:
-        """Number of images of a recording; None of devices and of files that do not know."""
+        """Number of images of a recording; None for devices and files without that number."""
         return self._native.frame_count()
 
     @property
     def dropped(self) -> int:
-        """Images lost until now: by a device, or because they could not be read."""
+        """Images lost so far: by a device, or because they could not be read."""
         return self._dropped
 
     def close(self) -> None:
-        """Lets go of the device or file, also from another thread. Reading on, or having waited for
-        an image meanwhile, raises InputError."""
+        """Closes the device or file, also from another thread. A read during or after it raises
+        InputError."""
         self._native.close()
 
     def _camera_of(self, numbers: Any) -> Camera:
@@ -128,7 +128,7 @@ class Source(Iterator[DepthImage]):
         return made
 
     def _take_camera(self, camera: tuple[float, float, float, float, int, int], why: str) -> None:
-        """In place of the one that was guessed."""
+        """Replaces the assumed camera."""
         self._options["camera"] = camera
         self._native.take_camera(camera)
         note = f"{self._name}: {why}"
@@ -167,7 +167,7 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     wait_s: float = 0.0,
     patience_s: float = 5.0,
 ) -> Source:
-    """Opens whatever `ossa track SOURCE` opens and iterates over its depth images.
+    """Opens a SOURCE, as `ossa track SOURCE` does, and iterates over its depth images.
 
     Parameters
     ----------
@@ -176,30 +176,29 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
         or "FILE.bag#/topic" (ROS 1, RealSense), a 16-bit PNG or a folder of them, or a data set of
         `ossa render`.
     camera : ossa.Camera or str, optional
-        A preset's name, "fx,fy,cx,cy" in pixels, or a file that states it, FILE.json, .yaml or
-        .xml, as `ossa track --camera` reads it. Left out: the source's own, else a preset by the
-        images' size, which `notes` then tells.
+        A preset's name, "fx,fy,cx,cy" in pixels, or a file with intrinsics (.json, .yaml, .xml), as
+        of `ossa track --camera`. Left out: the source's own, else a preset by the image size, with
+        a note in `notes`.
     depth_scale : float, optional
-        Units to the metre of a recording's depths, 1e-3 to 1e6. Left out: its own, else 1000,
+        Units per metre of a recording's depths, 1e-3 to 1e6. Left out: its own, else 1000,
         millimetres.
     fps : float, optional
-        Images a second of a recording, whatever it says of its times. Left out: its own times,
-        else 30.
+        Images a second of a recording, in place of its own times. Left out: its own times, else 30.
     rotate : 0, 90, 180, 270 or "auto"
-        Degrees by which the images must be turned clockwise for people to stand in them; with
-        "auto" that of `camera`, where it says one. The images come as they are; their cameras say
-        it to the tracker, see Camera.
+        Degrees by which the images must be rotated clockwise for people to stand upright in them;
+        with "auto" that of `camera`, if it has one. The images are not rotated; their cameras carry
+        the rotation to the tracker, see Camera.
     depth_format : "plain", "swapped", "inverted", "inverted:FROM" or "disparity"
-        What the 16-bit numbers of a recording are: lengths; with their bytes exchanged; subtracted
-        from 65535 or from FROM; raw shifts of a Kinect v1.
+        Format of the 16-bit values of a recording: depths; depths with swapped bytes; subtracted
+        from 65535 or from FROM; raw disparities of a Kinect v1.
     mirrored : bool
-        The images are as a mirror shows them, as Kinect SDKs and libfreenect2 deliver them, and so
-        is their camera, the source's own or the numbers of `camera`: both come as the sensor looks.
-        `rotate` is of the images that come.
+        The images are mirrored, as Kinect SDKs and libfreenect2 deliver them, and the intrinsics (the
+        source's own or `camera`) are of mirrored images: both are unmirrored. `rotate` is of the
+        unmirrored images.
     wait_s : float
         Seconds to wait for a device to be plugged in.
     patience_s : float
-        Seconds without an image after which a device is given up.
+        Seconds without an image after which reading a device fails.
 
     Returns
     -------
@@ -209,8 +208,8 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     Raises
     ------
     ossa.InputError
-        Naming the source and what was expected; while iterating, for a damaged file or a device
-        that is gone.
+        Naming the source and what was expected; while iterating, for a damaged file or an unplugged
+        device.
 
     Examples
     --------

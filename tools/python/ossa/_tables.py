@@ -1,4 +1,4 @@
-"""Tables for pandas, which is imported only here and only when it is asked for."""
+"""Tables for pandas, which is imported only here, on demand."""
 
 from __future__ import annotations
 

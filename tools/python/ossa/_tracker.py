@@ -20,24 +20,24 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 _LOG = logging.getLogger("ossa")
-_STEP_S = 1.0 / 30.0  # between frames that say no time
+_STEP_S = 1.0 / 30.0  # between frames without times
 
 
 @dataclasses.dataclass(frozen=True)
 class Holt:
-    """The Kinect SDK's filter of joints (NUI_TRANSFORM_SMOOTH_PARAMETERS) with own numbers.
+    """The Kinect SDK's filter of joints (NUI_TRANSFORM_SMOOTH_PARAMETERS) with your own parameters.
 
     Parameters
     ----------
     smoothing : float
-        Weight in [0, 1); 0 leaves joints as they are.
+        Weight in [0, 1); 0: no smoothing.
     correction : float
-        Weight in [0, 1]: how fast it follows.
+        Weight in [0, 1]: how fast the filter follows.
     prediction : float
         Frames to predict into the future, 0 or more.
     jitter_radius_m, max_deviation_radius_m : float
-        Metres, above 0: below the first, moves are damped further; no joint ends farther from where
-        it was than the second.
+        Metres, above 0: movements below the first are damped further; no filtered joint is farther
+        from the unfiltered one than the second.
     """
 
     smoothing: float = 0.5
@@ -49,14 +49,14 @@ class Holt:
 
 @dataclasses.dataclass(frozen=True)
 class OneEuro:
-    """The 1 Euro filter of joints (Casiez 2012) with own numbers.
+    """The 1 Euro filter of joints (Casiez 2012) with your own parameters.
 
     Parameters
     ----------
     min_cutoff_hz : float
-        Hz, above 0: of a joint at rest.
+        Hz, above 0: cut-off frequency for a joint at rest.
     beta_per_m : float
-        Hz more per m/s, 0 or more.
+        Increase of the cut-off frequency with speed, Hz per m/s, 0 or more.
     """
 
     min_cutoff_hz: float = 1.5
@@ -103,21 +103,21 @@ def _person_option(person: Any, fit: bool, max_users: int) -> list[str]:
 
 
 class Models:
-    """All that a tracker has learned, in memory: read once, it serves any number of trackers, also
-    at the same time in several threads.
+    """The models of a tracker in memory: read once, shared by any number of trackers, also in several
+    threads at the same time.
 
     Parameters
     ----------
     method : str
-        The method of the trackers, which decides what is read; one of ossa.METHODS.
+        The method of the trackers, which decides which files are read; one of ossa.METHODS.
     model : path, optional
         Forest, .ossa of `ossa train`. Left out: the shipped one.
     refinement : path or "none", optional
-        Refinement at the depth image. Left out: the shipped one where it belongs to forest and
-        method.
+        Cascaded refinement, .ossarefine of `ossa refine`. Left out: the shipped one if it belongs to
+        forest and method.
     learned : path or "none", optional
-        .ossagp of ossa.learn, for methods that learn. Left out: with best and the shipped forest
-        the shipped one.
+        .ossagp of ossa.learn, for learned methods. Left out: with best and the shipped forest the
+        shipped one.
     prior : path or "none", optional
         .ossaprior of `ossa prior`, for best. Left out: the shipped one.
     database : path or "none", optional
@@ -129,7 +129,7 @@ class Models:
         .ossasurface of `ossa surface`, the body that is fitted. Left out: the shipped one. "none":
         no fit.
     mesh : path, optional
-        .ossamesh of `ossa surface`, its skin: needed with a surface of your own.
+        .ossamesh of `ossa surface`, the mesh of that surface: required with your own surface.
     """
 
     def __init__(
@@ -182,64 +182,64 @@ def _models_for(method: str, given: Any, files: dict[str, Any]) -> Models:
 
 
 class Tracker:
-    """Follows people from depth image to depth image: everything that the Kinect SDK's skeleton
-    stream gave, for any depth camera.
+    """Tracks people over depth images: the functions of the Kinect SDK's skeleton stream, for any depth
+    camera.
 
-    Several trackers may run at once, each in a thread of its own: the GIL is released while they
-    work. A tracker that two threads use at once does one after the other. What it returns are plain
-    arrays of their own.
+    Several trackers may run at once, each in its own thread: the GIL is released while they work.
+    Calls of two threads to one tracker are serialised. Results are independent arrays.
 
     Parameters
     ----------
     method : str
-        How postures are made complete, one of ossa.METHODS: "none", "holt", "one-euro", "kalman",
+        Reconstruction method, one of ossa.METHODS: "none", "holt", "one-euro", "kalman",
         "shum-ho-2012", "shum-2013", "plantard-2016", "liu-2016", "full-gp", "exemplar", "best".
     physics : bool
-        Let a mechanical character follow the posture (Shum 2013, sec. VII).
+        Let a physical character follow the posture (Shum 2013, sec. VII).
     model : path, optional
         Forest, .ossa of `ossa train`. Left out: the shipped one.
     smoothing : str, ossa.Holt, ossa.OneEuro, optional
-        Filter of joints at the end: "none", "default", "smooth", "verysmooth" (the Kinect SDK's),
-        "one-euro", or one with own numbers. Left out: what goes with the method; methods that
-        filter themselves get none.
+        Final filter of joints: "none", "default", "smooth", "verysmooth" (the Kinect SDK's),
+        "one-euro", or one with your own parameters. Left out: the default of the method; methods
+        that are filters get none.
     max_users : int
         Most people at a time, 1 to 6.
     threads : int
         Threads for several people, 1 to 256. The results do not depend on it.
     seated : bool
-        Only the ten upper joints are looked for (the SDK's seated mode); see `mode`.
+        Track only the ten upper joints (the SDK's seated mode); see `mode`.
     near : bool
         Near range: people within 3 m of a level camera only.
     lag : int
-        Of track_late and run: bodies so many frames later and steadier, 0 (live) to 2.
+        For track_late and run: frames of delay for smoother bodies, 0 (live) to 2.
     parts, probabilities, proposals : bool
-        Fill Frame.parts, an eighth of a frame's time; Frame.probabilities, 128 bytes a pixel;
+        Fill Frame.parts (an eighth of a frame's time), Frame.probabilities (128 bytes per pixel),
         Body.proposals.
     fit : bool
         Fit the body's surface to the depth image where there are refined joints (Body.fit,
-        Body.mesh), as `ossa track` does; the method starts from what it and they say.
+        Body.mesh), as `ossa track` does; the method then starts from the mean of fit and refined
+        joints.
     refinement, learned, prior, database, pose_network, surface, mesh : path or "none", optional
-        Other models' files, as of ossa.Models.
+        Other model files, as of ossa.Models.
     models : ossa.Models, optional
-        Models in memory that trackers share, in place of files.
+        Models in memory, shared by trackers, in place of files.
     bones_m : dict of int to float64 [20], optional
-        Metres, Body.bones_m by Body.id of a run before over the same recording: they stay from the
-        first frame to the last. Only for methods that keep bones.
+        Metres, Body.bones_m by Body.id of an earlier run over the same recording: kept constant from
+        the first frame to the last. Only for methods that keep bones.
     person : path or list of path, optional
-        Person files, .ossaperson of `ossa track --save-person`: whoever gets id 1 (2, ...) is
+        Person files, .ossaperson of `ossa track --save-person`: the person with id 1 (2, ...) is
         fitted with that shape from the first frame on. Needs `fit`.
     mount : "auto", "level" or "ceiling"
-        Where the camera is. "auto": level, until a floor far below and a body on it say that it
-        hangs under the ceiling.
+        Mounting of the camera. "auto": level, until a floor far below and a body on it show that it
+        is under the ceiling.
     scene : path, optional
-        A scene file, .toml: all people in one mechanical world with its things (Frame.objects), in
+        A scene file, .toml: all people in one physics simulation with its objects (Frame.objects), in
         place of `physics`.
     control : "pd" or "motor"
-        With physics or a scene: what drives the character.
+        With physics or a scene: the controller of the character.
     hinges, joint_limits : bool
-        With physics or a scene: elbows and knees bend about one axis; joints keep to people's ranges.
+        With physics or a scene: elbows and knees bend about one axis; joints have human ranges.
     seed : int
-        Of the methods that draw samples.
+        For methods that draw samples.
     METHOD_OPTIONS
 
     Raises
@@ -330,19 +330,19 @@ class Tracker:
         camera: Camera,
         time_s: Optional[float] = None,
     ) -> Frame:
-        """One depth image in, its bodies out.
+        """Tracks the people of one depth image.
 
         Parameters
         ----------
         depth_mm : uint16 [H, W]
-            Millimetres along the optical axis, 0 = no reading. Rows of neighbouring pixels (C
-            order); a part cut out of a larger image is one. It is not copied: whoever writes into it
-            before track returns gets a skeleton of two moments.
+            Millimetres along the optical axis, 0 = no reading. Pixels of a row contiguous (C
+            order); a view of a part of a larger image is accepted. It is not copied: do not write
+            into it before track returns, or the skeleton mixes two images.
         camera : ossa.Camera
-            What it was taken by.
+            The camera of the image.
         time_s : float, optional
-            Seconds, by any clock that goes on from image to image. Left out: a thirtieth of a
-            second after the image before.
+            Seconds, by any clock that increases from image to image. Left out: a thirtieth of a
+            second after the previous image.
 
         Returns
         -------
@@ -351,7 +351,7 @@ class Tracker:
         Raises
         ------
         ossa.InputError
-            For another type, shape or order, a camera that cannot be, a time that is no number.
+            For another type, shape or order, an invalid camera, a time that is not finite.
         """
         made = self._native.track(*self._checked(depth_mm, camera, time_s))
         return frame_from(made, self._faces)
@@ -362,29 +362,29 @@ class Tracker:
         camera: Camera,
         time_s: Optional[float] = None,
     ) -> Optional[Frame]:
-        """As track, later and steadier: the frame as many images before as the tracker's `lag`
-        says, its joints smoothed by what came after.
+        """As track, delayed and smoother: the frame as many images before as the tracker's `lag`,
+        with joints smoothed by the frames after it.
 
         Parameters
         ----------
         depth_mm : uint16 [H, W]
             As of track.
         camera : ossa.Camera
-            What it was taken by.
+            The camera of the image.
         time_s : float, optional
             As of track.
 
         Returns
         -------
         Frame or None
-            None until so many images came; take_held gives the last ones.
+            None for the first `lag` images; take_held returns the last frames.
         """
         made = self._native.track_late(*self._checked(depth_mm, camera, time_s))
         return None if made is None else frame_from(made, self._faces)
 
     def take_held(self) -> Optional[Frame]:
-        """After track_late, at the end of a stream: the oldest frame that is still held; None when
-        all are out."""
+        """After track_late, at the end of a stream: the next held frame; None when all were
+        returned."""
         made = self._native.take_held()
         return None if made is None else frame_from(made, self._faces)
 
@@ -412,7 +412,7 @@ class Tracker:
         Parameters
         ----------
         source : path or Source
-            What ossa.open takes, or what it has opened.
+            A SOURCE of ossa.open, or an opened Source.
         """
         opened = source if isinstance(source, Source) else open_source(source)
         return self._run(opened)
@@ -490,8 +490,8 @@ class Tracker:
 
     @property
     def smoothing(self) -> Smoothing:
-        """The filter of joints at the end, as given to Tracker. May be set between frames; None is
-        what goes with the method."""
+        """The final filter of joints, as given to Tracker. May be set between frames; None: the
+        default of the method."""
         return self._smoothing
 
     @smoothing.setter
@@ -506,11 +506,11 @@ class Tracker:
 
     @property
     def rotation(self) -> int:
-        """Degrees by which images are turned now, clockwise, before people are looked for."""
+        """The current clockwise rotation of the images before people are detected, degrees."""
         return 90 * self._native.quarter_turns()
 
     def reset(self) -> None:
-        """Forgets everybody."""
+        """Resets all state: another recording begins."""
         self._native.reset()
         self._time_s = None
 
@@ -518,7 +518,7 @@ class Tracker:
 def mechanics_option(
     physics: Any, control: Any, hinges: Any, joint_limits: Any, scene: Any = None
 ) -> dict[str, bool]:
-    """How the mechanical character is built; one that is described and not asked for is refused."""
+    """Options of the physical character; refused without physics or a scene."""
     _check.flag("physics", physics)
     build = {
         "motors": _check.one_of("control", control, ("pd", "motor")) == "motor",

@@ -84,28 +84,30 @@ typedef struct {
   int32_t width, height;    /* pixels */
   double fx, fy, cx, cy;    /* pixels: u = cx - fx x/z, v = cy - fy y/z */
   const uint16_t* depth_mm; /* width x height, row by row, millimetres, 0 = no reading; not
-                               mirrored (ossa_unmirror), as those of Kinect SDKs, OpenNI2 and
-                               libfreenect2 are by default: people's left would be their right */
+                               mirrored; those of Kinect SDKs, OpenNI2 and libfreenect2 are by
+                               default: unmirror them by ossa_unmirror, else left and right of
+                               people are exchanged */
   double time_s;            /* time of capture; any origin */
 } ossa_depth_image;
 
 typedef struct {
   uint32_t struct_size;
   const char* camera; /* a preset's name, "fx,fy,cx,cy" or a file, as `ossa track --camera`; NULL:
-                         what the source says, else by the images' size */
-  double depth_scale; /* units to the metre of its depths; 0: what it says, else millimetres */
+                         the source's own, else by the image size */
+  double depth_scale; /* units per metre of its depths; 0: the source's own, else millimetres */
   double fps;         /* frames a second of a recording; 0: its own times */
   double wait_s;      /* for a device to be plugged in; 0: it must be there */
-  const char* depth_format; /* what its numbers are, as `ossa track --depth-format`; NULL: plain */
-  int32_t find_camera;      /* not 0: of images that state no camera, nor `camera` does, looks at
-                               some for whether one of a narrower view took them, as `ossa track`
-                               does: takes seconds; a note says what was found */
-  int32_t mirrored;         /* not 0: its images are as a mirror shows them, and its own camera, or
-                               `camera`'s numbers, is of these; both come as the sensor looks */
-  /* Asked about ten times a second, in the thread that waits, while a call waits for a device
-     (wait_s) or a frame (ossa_source_read), or looks through frames for a camera (find_camera) or
-     for which way is up (ossa_tracker_find_upright). 0 ends that: opening a device fails, reading
-     times out, nothing is found. What it looks at another thread may set. NULL: none ends early. */
+  const char* depth_format; /* of its 16-bit values, as `ossa track --depth-format`; NULL: plain */
+  int32_t find_camera;      /* not 0: without intrinsics in the source and in `camera`, tests on
+                               some images whether a camera with a narrower view took them, as
+                               `ossa track` does: takes seconds; a note states the result */
+  int32_t mirrored;         /* not 0: its images are mirrored, and its intrinsics, or those in
+                               `camera`, are of mirrored images; both are returned unmirrored */
+  /* Called about ten times a second, in the waiting thread, while a call waits for a device
+     (wait_s) or a frame (ossa_source_read), or searches frames for a camera (find_camera) or for
+     the upright rotation (ossa_tracker_find_upright). Returning 0 ends the wait: opening a device
+     fails, reading times out, nothing is found. It may read a flag set by another thread. NULL: no
+     early end. */
   int32_t (*keep_waiting)(void* keep_waiting_user);
   void* keep_waiting_user;
 } ossa_source_options;
@@ -157,7 +159,7 @@ ossa_status ossa_points(const ossa_depth_image* image, float* points_m);
 
 typedef struct {
   uint32_t struct_size;
-  int32_t physics;       /* not 0: a mechanical character follows the posture */
+  int32_t physics;       /* not 0: a physical character follows the posture */
   int32_t seated;        /* not 0: the ten upper joints */
   int32_t near_range;    /* not 0: people from 0.4 to 3 m */
   int32_t max_users;     /* 1 to 6; 0: 6 */

@@ -1,4 +1,4 @@
-"""ossa.compare, ossa.evaluate, ossa.learn: measures and what is learned from recordings."""
+"""ossa.compare, ossa.evaluate, ossa.learn: errors of skeletons and forests, and their correction."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Comparison(dict[str, Any]):
 
 
 class _Files:
-    """Skeletons as files: those that are in memory lie in a folder that is gone afterwards."""
+    """Skeletons as files: sequences in memory are written to a temporary folder."""
 
     def __enter__(self) -> _Files:
         self._folder = tempfile.TemporaryDirectory(prefix="ossa")
@@ -50,7 +50,7 @@ class _Files:
         return path
 
     def named(self, text: str) -> str:
-        """A text in which the arguments' names stand for such files."""
+        """The text with the paths of temporary files replaced by the names of the arguments."""
         for path, name in self._names.items():
             text = text.replace(json.dumps(path)[1:-1], name).replace(path, name)
         return text
@@ -77,29 +77,29 @@ def compare(
     skip: Union[str, Several[str]] = (),
     seed: int = 1,
 ) -> Comparison:
-    """Judges skeletons against the truth, or against each other, as `ossa compare` does.
+    """Compares skeletons with the truth, or with each other, as `ossa compare` does.
 
     Parameters
     ----------
     truth : path or Sequence
         The skeletons to compare with: a file, a folder, an archive, or one in memory.
     result : path or Sequence, or a list of such
-        What is judged. Clips of folders and archives are matched by name.
+        The skeletons to evaluate. Clips of folders and archives are matched by name.
     align : "none" or "rigid"
-        rigid: one rotation and translation a clip (Procrustes).
+        rigid: one rotation and translation per clip (Procrustes).
     joints : "all" or "found"
-        Of a result: all that have a place, or without those not_tracked.
+        Joints of a result: all that have a position, or without those not_tracked.
     time : "auto", "none", "correlate" or float
         auto: cross-correlation where the frame times disagree; or seconds to add to the results'
         times.
     max_offset_s : float
-        How far correlation looks, seconds, 0 to 60.
+        Largest offset tried by the correlation, seconds, 0 to 60.
     format : str, optional
         Read every file in this format, one of ossa.SKELETON_FORMATS.
     mapping : path, optional
         As of read_skeletons.
     only, skip : str or list of str
-        Only clips, or no clips, whose name holds one of these.
+        Only clips, or no clips, whose name contains one of these.
     seed : int
         Of the bootstrap.
 
@@ -148,14 +148,14 @@ def evaluate(model: PathLike, dataset: PathLike, every: int = 1) -> dict[str, An
     dataset : path
         A folder made by `ossa render`.
     every : int
-        Look at every N-th frame, 1 or more.
+        Evaluate every N-th frame, 1 or more.
 
     Returns
     -------
     dict
         The fields of `ossa evaluate --json`: {"frames", "pixel_accuracy", "mean_class_accuracy",
         "per_class_accuracy": {part: x}, "map_10cm", "ap_10cm": {joint: x}, "ns_per_pixel",
-        "classify_ms", "propose_ms", ...}; None where nothing in the data says.
+        "classify_ms", "propose_ms", ...}; None where the data have no value.
     """
     step = _check.whole("every", every, 1, 2**31 - 1)
     text = _native.evaluate(_check.path("model", model), _check.path("dataset", dataset), step)
@@ -179,13 +179,13 @@ def learn(
     Parameters
     ----------
     observed : path or Sequence, or a list of such
-        What the sensor said: files, folders, archives, or sequences in memory.
+        Skeletons of the sensor: files, folders, archives, or sequences in memory.
     truth : path or Sequence, or a list of such
-        What was true, in the same order; joints may be missing.
+        True skeletons, in the same order; joints may be missing.
     out : path
         The .ossagp file to write, for Tracker(learned=...) and reconstruct(learned=...).
     correction_only : bool
-        Only what best uses: quick to learn, a quarter of a megabyte.
+        Only the correction for best: fast to learn, a quarter of a megabyte.
     regions, samples : int
         Q and S of liu-2016, 1 to 1000 and 2 to 5000.
     pairs : int
