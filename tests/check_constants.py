@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every numeric constant says its unit and its origin.
+"""Every numeric constant states its unit and its origin.
 
 Usage: check_constants.py [--list] [FILE...]   (all sources of the modules without FILE)
 

@@ -22,10 +22,10 @@ HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$")
 FENCE = re.compile(r"^\s*```(\w*)")
 FOLDERS = ("depth", "forest", "recon", "physics", "tools", "tests", "cmake", "docs", ".ci")
 PATH = re.compile(rf"^(?!depth/\d|.*NAME)(?:{'|'.join(map(re.escape, FOLDERS))})/[\w./*{{}},-]+$")
-# Documents that are elsewhere: whoever reads the repository does not have them.
+# Documents outside the repository, which its readers do not have.
 ELSEWHERE = re.compile(r"\b(?:DESIGN|FACTS|STYLE)\b(?!\.md)")
 DOCUMENT = re.compile(r"(?<![\w/.*{}$-])((?:[\w-]+/)*[\w-]+\.md)\b")
-# What is to be read in one sitting: words of the first screen, bytes of the release notes.
+# Limits of length: words of README.md, bytes of the release notes.
 MOST_WORDS = {"README.md": 1000}
 MOST_BYTES = {"CHANGES.md": 8000}
 MADE = {"TABLE.md"}  # written by commands

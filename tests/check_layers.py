@@ -18,7 +18,7 @@ import pathlib
 import re
 import sys
 
-# Who may include whom; a module may always include itself.
+# Allowed includes; a module may always include itself.
 DEPENDENCIES = {
     "depth": set(),
     "forest": {"depth"},
@@ -26,7 +26,7 @@ DEPENDENCIES = {
     "physics": {"recon", "depth"},
     "tools": {"depth", "forest", "recon", "physics"},
 }
-# Of the folders of tools/: what they may include of each other; those not named, whatever they like.
+# Allowed includes between folders of tools/; folders that are not listed may include all.
 TOOLS = {
     "tools/people": set(),
     "tools/tracker": {"tools/people"},
@@ -43,8 +43,8 @@ SHOWING = ("tools/commands/", "tools/nite2/include/")
 LARGEST = 0.20
 CODE = (".h", ".cpp", ".c", ".inc", ".py", ".js", ".css", ".html")
 MODULE = re.compile(r"^\| `([\w/]+)/` \|")
-# The path of a frame, in order: each step, and who calls it. Tracker::Track calls the first two, the list
-# kStages calls the steps of a person, and these call what they are made of.
+# The path of a frame, in order: each step and its callers. Tracker::Track calls the first two, the list
+# kStages calls the steps of a person, and these call their own parts.
 FRAME_PATH = {
     "DetectPeople": {"tools/tracker/track_frame.cpp"},
     "forest::Classify": {"tools/people/forest_evidence.cpp"},

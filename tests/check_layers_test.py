@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""check_layers.py finds what it is there to find: small trees, each with one thing wrong.
+"""Tests of check_layers.py: small source trees, each with one violation.
 
 Usage: check_layers_test.py
 """

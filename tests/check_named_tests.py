@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Every test that docs/benchmarks/robustness.md names is there: `Suite.Name`, or `Suite.*`.
+"""Every test named in docs/benchmarks/robustness.md exists: `Suite.Name`, or `Suite.*`.
 
-Usage: check_named_tests.py [TOP]. Prints those that are missing; exit status 1 if any.
+Usage: check_named_tests.py [TOP]. Prints missing ones; exit status 1 if any.
 """
 import fnmatch
 import re

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the API reference (docs/Doxyfile) and tells which public names have no documentation.
+"""Makes the API reference (docs/Doxyfile) and lists public names without documentation.
 
 Usage: check_reference.py   ($OSSA_REFERENCE_DIR: where to write it; default: a folder that goes away)
 
@@ -17,7 +17,7 @@ import tempfile
 TOP = pathlib.Path(__file__).resolve().parent.parent
 LIBRARY = re.compile(r"ossa_library\((.*?)\n\)", re.S)
 HEADERS = re.compile(r"\bHEADERS\b(.*?)(?=\n\s*(?:SOURCES|PUBLIC|PRIVATE)\b|\Z)", re.S)
-# Members of a documented type may go without: their names say what they are.
+# Members of a documented type need none: their names describe them.
 NEEDS_NONE = re.compile(r"Member .* of (?:class|struct|union) .* is not documented|\(macro definition\)")
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the commands of the tutorials as a reader would type them, in a fresh folder each.
+"""Runs the commands of each tutorial as a reader would type them, in a fresh folder.
 
 Usage: run_tutorials.py OSSA [TUTORIAL...]   (OSSA: the command; all of docs/tutorials without TUTORIAL)
 

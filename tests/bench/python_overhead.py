@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What tracking from Python costs beside `ossa track`, in the same run.
+"""The overhead of tracking from Python over `ossa track`, in the same run.
 
 Usage: PYTHONPATH=BUILD/python python_overhead.py OSSA SOURCE [ROUNDS]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the command wrote once for the same input, it writes today.
+"""The command writes the same bytes as before for the same input.
 
     outputs.py OSSA [--write]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Python packages from PyPI that tests use as clients which are not ours: small ones in a folder of the build tree,
+"""Python packages from PyPI that tests use as independent clients: small ones in a folder of the build tree,
 Blender in the user's cache. As a program: fetches Blender.
 
 usage: tests/support/pypi.py blender
@@ -16,7 +16,7 @@ BLENDER = pathlib.Path(__file__).with_name("blender_package.txt")
 
 
 def install(packages, folder):
-    """The packages of a list in folder/site, fetched once; why not, where they cannot be had."""
+    """Fetches the packages of a list into folder/site, once; returns the reason if that fails."""
     folder.mkdir(parents=True, exist_ok=True)
     done = folder / "fetched"
     with open(folder / "lock", "w") as lock:  # tests run side by side
@@ -45,7 +45,7 @@ def fetch(folder):
 
 
 def blender_folder():
-    """Where Blender is kept, 1.4 GB outside of any build tree."""
+    """The folder of Blender, 1.4 GB, outside of any build tree."""
     home = os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache"
     return pathlib.Path(home) / "ossa" / "blender"
 
