@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -162,7 +164,29 @@ void Read(const std::string& path, const std::string& asked) {
   }
 }
 
+// Else rosbag calls any file that begins otherwise one that is cut short.
+void CheckIsBag(const std::string& path) {
+  constexpr std::string_view kMagic =
+      "#ROS";  // of every version: "#ROSBAG V2.0", "#ROSRECORD V1.2"
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kMagic.size(), '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<size_t>(file.gcount()));
+  if (head == kMagic) return;
+  throw InputError("expected a ROS 1 bag, which begins with #ROSBAG, found " +
+                   (head.empty() ? std::string("an empty file") : "a file that begins otherwise"));
+}
+
+// ROS itself reads no LZ4 blocks that refer to those before them: PyPI's rosbags 0.11 writes such.
+std::string AdviceOnLz4(std::string_view what) {
+  if (what.find("ROSLZ4") == what.npos) return {};
+  return ": damaged, or chunks of LZ4 that ROS does not read either, as PyPI's rosbags writes "
+         "them: "
+         "written again with bz2 or without compression they are read";
+}
+
 void ReadOrExplain(const std::string& path, const std::string& topic) {
+  CheckIsBag(path);
   try {
     Read(path, topic);
   } catch (const rosbag::BagUnindexedException&) {
@@ -172,7 +196,8 @@ void ReadOrExplain(const std::string& path, const std::string& topic) {
     throw InputError(std::string("expected a whole ROS 1 bag, found one that is cut short (") +
                      error.what() + "): 'rosbag reindex' saves what is there");
   } catch (const rosbag::BagException& error) {
-    throw InputError(std::string("expected a ROS 1 bag, found: ") + error.what());
+    throw InputError(std::string("expected a ROS 1 bag, found: ") + error.what() +
+                     AdviceOnLz4(error.what()));
   }
 }
 

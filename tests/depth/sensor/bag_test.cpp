@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "depth/sensor/frame_source.h"
 #include "tests/depth/sensor/bag_writer.h"
@@ -148,6 +150,32 @@ TEST(Bag, OneThatIsCutShortSaysSo) {
   const auto size = std::filesystem::file_size(folder / "x.bag");
   std::filesystem::resize_file(folder / "x.bag", size - size / 4);
   test::ExpectRefused([&] { OpenSource(folder / "x.bag"); }, "one that is cut short");
+}
+
+std::string Content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Bag, AFileThatIsNoBagSaysSo) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "text.bag") << "no bag, a text of some length\n";
+  std::ofstream(folder / "empty.bag");
+  test::ExpectRefused([&] { OpenSource(folder / "text.bag"); },
+                      "which begins with #ROSBAG, found a file");
+  test::ExpectRefused([&] { OpenSource(folder / "empty.bag"); }, "found an empty file");
+}
+
+TEST(Bag, OfLinkedLz4BlocksSaysWhatIsRead) {
+  const test::TemporaryFolder folder;
+  WriteBag(folder / "x.bag", CompressionType::LZ4);
+  std::string bytes = Content(folder / "x.bag");
+  // The frame's descriptor after its magic; bit 5: blocks are independent.
+  const size_t frame = bytes.find("\x04\x22\x4D\x18");
+  ASSERT_NE(frame, bytes.npos);
+  bytes[frame + 4] = static_cast<char>(bytes[frame + 4] & ~0x20);
+  std::ofstream(folder / "x.bag", std::ios::binary) << bytes;
+  test::ExpectRefused([&] { OpenSource(folder / "x.bag"); }, "PyPI's rosbags");
 }
 
 TEST(Bag, ManyDepthTopicsAreNoDamage) {
