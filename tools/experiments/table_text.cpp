@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+
+#include "depth/base/one_line.h"
 
 namespace ossa::tools {
 namespace {
@@ -19,9 +22,35 @@ std::string Padded(const std::string& text, size_t width) {
   return text + std::string(width - std::min(width, WidthOf(text)), ' ');
 }
 
+// Names of files may hold what Markdown would take for the end of a cell or for HTML.
+std::string InMarkdown(const std::string& text) {
+  const std::string line = OnOneLine(text);
+  std::string escaped;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const char next = i + 1 < line.size() ? line[i + 1] : ' ';
+    // CommonMark 0.30, section 6.6: a tag begins with one of these; "<10 cm" is none.
+    const bool is_tag = line[i] == '<' && (std::isalpha(static_cast<unsigned char>(next)) != 0 ||
+                                           next == '/' || next == '!' || next == '?');
+    if (line[i] == '|' || is_tag) escaped += '\\';
+    escaped += line[i];
+  }
+  return escaped;
+}
+
+Table InMarkdown(Table table) {
+  table.title = InMarkdown(table.title);
+  table.note = InMarkdown(table.note);
+  for (std::string& column : table.columns) column = InMarkdown(column);
+  for (auto& row : table.rows) {
+    for (std::string& cell : row) cell = InMarkdown(cell);
+  }
+  return table;
+}
+
 }  // namespace
 
-std::string ToMarkdown(const Table& table) {
+std::string ToMarkdown(const Table& unescaped) {
+  const Table table = InMarkdown(unescaped);
   std::vector<size_t> widths;
   for (const std::string& column : table.columns) {
     widths.push_back(std::max<size_t>(3, WidthOf(column)));

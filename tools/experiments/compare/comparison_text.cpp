@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "depth/base/one_line.h"
 #include "tools/experiments/compare/comparison.h"
 #include "tools/experiments/experiment.h"
 #include "tools/json/json_text.h"
@@ -207,7 +208,8 @@ std::string ToText(const Comparison& comparison) {
   std::string text = ToMarkdown(SummaryTable(comparison)) + "\n";
   text += ToMarkdown(JointTable(comparison));
   if (!comparison.tests.empty()) text += "\n" + ToMarkdown(TestTable(comparison));
-  if (const std::string advice = Advice(comparison); !advice.empty()) text += "\n" + advice + "\n";
+  if (const std::string advice = Advice(comparison); !advice.empty())
+    text += "\n" + OnOneLine(advice) + "\n";
   return text;
 }
 
