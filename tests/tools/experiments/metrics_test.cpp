@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "recon/files/skeleton_io.h"
 
@@ -245,6 +246,31 @@ SkeletonSequence Squat(double step_s, double noise_m) {
 
 TEST(TimeAlignment, DoesNotConfuseTheHalvesOfASymmetricMovement) {
   const auto pairs = PairUp(Squat(0.01, 0.0), Squat(1 / 30.0, 0.003));
+  EXPECT_FALSE(pairs.at(0).same_clock);
+  EXPECT_NEAR(pairs.at(0).offset_s, 0.0, 0.05);
+}
+
+// Hands go to one side and back, half a cycle a second; one of the swings is wider.
+SkeletonSequence Waving(double step_s, int wide_swing, double noise_m) {
+  SkeletonSequence waving = Swinging(static_cast<int>(6.0 / step_s), step_s);
+  for (auto& frame : waving.frames) {
+    const double wide = std::floor(frame.time_s) == wide_swing ? 2 : 1;
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      const double place = static_cast<double>(j);
+      frame.bodies[0].joints[j]->position_m = {0.1 * std::sin(place), 0.08 * place, 2};
+    }
+    for (const Joint hand : {Joint::kHandLeft, Joint::kHandRight}) {
+      frame.bodies[0].joints[recon::Index(hand)]->position_m.x() +=
+          0.1 * wide * std::sin(std::numbers::pi * frame.time_s) +
+          noise_m * std::sin(23 * frame.time_s);
+    }
+  }
+  return waving;
+}
+
+// The speeds alone correlate best where the wide swings meet, which go to opposite sides.
+TEST(TimeAlignment, AlignsARepeatedMovementByJointPositions) {
+  const auto pairs = PairUp(Waving(0.01, 2, 0.0), Waving(1 / 30.0, 3, 0.004));
   EXPECT_FALSE(pairs.at(0).same_clock);
   EXPECT_NEAR(pairs.at(0).offset_s, 0.0, 0.05);
 }

@@ -1,9 +1,14 @@
 #include "tools/experiments/compare/clock_offset.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "tools/experiments/compare/assign_bodies.h"
+#include "tools/experiments/compare/rigid_transform.h"
 #include "tools/experiments/experiment.h"
 
 namespace ossa::tools {
@@ -59,40 +64,132 @@ double Significance(double correlation, long shared) {
   return std::atanh(std::clamp(correlation, -kPerfect, kPerfect)) * standard_errors;
 }
 
-// Pearson's correlation of a(t) with b(t - shift), covariances and variances summed over the
-// joints. Only times that both know count, else the ends of a clip would pull the peak to zero.
-// Fewer shared times than `fewest` give no correlation: short overlaps fit anything.
+// Sums of Pearson's correlation.
+struct Sums {
+  double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+
+  void Add(double u, double v) {
+    ++n;
+    x += u;
+    y += v;
+    xx += u * u;
+    yy += v * v;
+    xy += u * v;
+  }
+  double Covariance() const { return xy - x * y / n; }
+  double VarianceX() const { return xx - x * x / n; }
+  double VarianceY() const { return yy - y * y / n; }
+};
+
+// Of signals with means of their own: covariances and variances are summed over them.
+class PooledCorrelation {
+ public:
+  void Add(const Sums& sums) {
+    if (sums.n < 2) return;
+    covariance_ += sums.Covariance();
+    variance_x_ += sums.VarianceX();
+    variance_y_ += sums.VarianceY();
+    most_ = std::max(most_, static_cast<long>(sums.n));
+  }
+  long most() const { return most_; }  // samples of one signal
+  /// None of what does not change.
+  std::optional<double> Value() const {
+    const double variance = std::sqrt(variance_x_ * variance_y_);
+    return variance > 0 ? std::optional(covariance_ / variance) : std::nullopt;
+  }
+
+ private:
+  double covariance_ = 0, variance_x_ = 0, variance_y_ = 0;
+  long most_ = 0;
+};
+
+// Pearson's correlation of a(t) with b(t - shift), pooled over the joints. Only times that both
+// know count, else the ends of a clip would pull the peak to zero. Fewer shared times than `fewest`
+// give no correlation: short overlaps fit anything.
 Correlation Correlate(const Speeds& a, const Speeds& b, long shift, long fewest) {
   const auto count = static_cast<long>(a.speed[0].size());
-  double covariance = 0;
-  double variance_a = 0;
-  double variance_b = 0;
-  long shared = 0;
+  PooledCorrelation pooled;
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    Sums sums;
     for (long i = std::max(0L, shift); i < count + std::min(0L, shift); ++i) {
       const auto at_a = static_cast<size_t>(i);
       const auto at_b = static_cast<size_t>(i - shift);
       if (!a.known[j][at_a] || !b.known[j][at_b]) continue;
-      const double u = a.speed[j][at_a];
-      const double v = b.speed[j][at_b];
-      ++n;
-      x += u;
-      y += v;
-      xx += u * u;
-      yy += v * v;
-      xy += u * v;
+      sums.Add(a.speed[j][at_a], b.speed[j][at_b]);
     }
-    if (n < 2) continue;
-    covariance += xy - x * y / n;
-    variance_a += xx - x * x / n;
-    variance_b += yy - y * y / n;
-    shared = std::max(shared, static_cast<long>(n));
+    pooled.Add(sums);
   }
-  const double variance = std::sqrt(variance_a * variance_b);
-  if (shared < fewest || variance <= 0) return {};
-  const double correlation = covariance / variance;
-  return {correlation, Significance(correlation, shared)};
+  const auto correlation = pooled.Value();
+  if (pooled.most() < fewest || !correlation) return {};
+  return {*correlation, Significance(*correlation, pooled.most())};
+}
+
+// Postures of both at the same times, the result's moved onto the truth's.
+struct Aligned {
+  std::vector<SparsePosture> truths, results;
+};
+
+Aligned AlignAt(const JointTrack& truth, const JointTrack& result, double shift_s) {
+  CommonJoints common;
+  Aligned aligned;
+  for (size_t f = 0; f < result.time_s.size(); ++f) {
+    const auto posture = PostureAt(truth, result.time_s[f] + shift_s);
+    if (!posture) continue;
+    common.Add(result.postures[f], *posture);
+    aligned.truths.push_back(*posture);
+    aligned.results.push_back(result.postures[f]);
+  }
+  const auto transform = common.Align();
+  if (!transform) return {};
+  for (SparsePosture& posture : aligned.results) posture = Moved(*transform, std::move(posture));
+  return aligned;
+}
+
+// How significantly the joints' positions correlate once the result is moved onto the truth. Speeds
+// alone are alike where a movement is repeated or runs back; where the joints then are is not.
+double PositionSignificance(const JointTrack& truth, const JointTrack& result, double shift_s) {
+  const auto [truths, results] = AlignAt(truth, result, shift_s);
+  PooledCorrelation pooled;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    std::array<Sums, 3> axes;
+    for (size_t f = 0; f < truths.size(); ++f) {
+      if (!truths[f].present[j] || !results[f].present[j]) continue;
+      for (size_t a = 0; a < axes.size(); ++a) {
+        const auto axis = static_cast<Eigen::Index>(a);
+        axes[a].Add(truths[f].position_m[j][axis], results[f].position_m[j][axis]);
+      }
+    }
+    for (const Sums& sums : axes) pooled.Add(sums);
+  }
+  const double frame_s = (result.time_s.back() - result.time_s.front()) /
+                         static_cast<double>(result.time_s.size() - 1);
+  const auto shared = std::lround(static_cast<double>(pooled.most()) * frame_s / kStep_s);
+  return Significance(pooled.Value().value_or(0), shared);
+}
+
+// The most significant peaks of the speeds' correlation, the best first, of equal ones that of the
+// smallest offset. Where there is none the middle: someone who stands still gives no reason to move
+// the clock.
+std::vector<size_t> FindPeaks(const std::vector<Correlation>& score) {
+  constexpr double kLeastShare =
+      0.1;  // of the best peak's significance, a ratio; by hand: 0.5 misses some
+  constexpr size_t kMostPeaks = 8;  // by hand: two seconds either way of a movement twice a second
+  const size_t middle = score.size() / 2;
+  const auto at = [&](size_t i) { return i < score.size() ? score[i].significance : -1e9; };
+  const auto offset = [&](size_t i) { return i > middle ? i - middle : middle - i; };
+  std::vector<size_t> peaks;
+  for (size_t i = 0; i < score.size(); ++i) {
+    if (at(i) > 0 && at(i) >= at(i - 1) && at(i) > at(i + 1)) peaks.push_back(i);
+  }
+  if (peaks.empty()) return {middle};
+  std::sort(peaks.begin(), peaks.end(), [&](size_t a, size_t b) {
+    return at(a) != at(b) ? at(a) > at(b) : offset(a) < offset(b);
+  });
+  const double least = kLeastShare * at(peaks.front());
+  while (peaks.size() > 1 && (at(peaks.back()) < least || peaks.size() > kMostPeaks)) {
+    peaks.pop_back();
+  }
+  return peaks;
 }
 
 // Half of the shorter recording must overlap.
@@ -137,10 +234,17 @@ ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double
     if (stop && stop()) throw Interruption{};
     score.push_back(Correlate(a, b, shift, fewest));
   }
-  // Of equal peaks the smallest offset: someone who stands still gives no reason to move the clock.
-  size_t best = static_cast<size_t>(reach);
-  for (size_t i = 0; i < score.size(); ++i) {
-    if (score[i].significance > score[best].significance + 1e-9) best = i;
+  const std::vector<size_t> peaks = FindPeaks(score);
+  size_t best = peaks.front();
+  double most = 0;
+  for (const size_t peak : peaks) {
+    if (peaks.size() == 1) break;
+    if (stop && stop()) throw Interruption{};
+    const double shift_s = (static_cast<double>(peak) - static_cast<double>(reach)) * kStep_s;
+    const double agreement = PositionSignificance(truth, result, shift_s);
+    if (agreement <= most) continue;
+    best = peak;
+    most = agreement;
   }
   double shift = static_cast<double>(best) - static_cast<double>(reach);
   if (best > 0 && best + 1 < score.size()) {

@@ -13,8 +13,9 @@ struct ClockMatch {
   double significance = 0.0;
 };
 
-/// The offset within `max_offset_s` at which the joint speeds of result and truth correlate most
-/// significantly, on a 10 ms grid, refined by a parabola through their normalised
+/// The offset within `max_offset_s` at which result and truth agree: of those at which the joints'
+/// speeds correlate significantly, on a 10 ms grid, the one at which their positions, moved rigidly
+/// onto each other, do so most; refined by a parabola through the speeds' normalised
 /// cross-correlation.
 /// Throws Interruption (tools/experiments/experiment.h) once `stop`, asked at each offset, says so.
 ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double max_offset_s,
