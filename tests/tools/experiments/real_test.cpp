@@ -109,6 +109,18 @@ TEST(RealScore, OffsetsOfSmallSetsAreEstimatedOnAllStills) {
   EXPECT_NEAR(score.mean_cm.value(), 2.0 / 3.0, 1e-9);
 }
 
+TEST(RealScore, OfTooFewStillsNoOffsetIsRemoved) {
+  OneJoint one({0.11, 0.10});
+  one.set.offsets_from_other_half = false;
+  const StageScore few = ScoreStage(one.set, one.results, RealStage::kRaw, true, {true});
+  EXPECT_FALSE(few.offset_removed);
+  EXPECT_NEAR(few.mean_cm.value(), 10.5, 1e-9);
+  OneJoint more({0.11, 0.10, 0.09});
+  more.set.offsets_from_other_half = false;
+  EXPECT_TRUE(ScoreStage(more.set, more.results, RealStage::kRaw, true, {true}).offset_removed);
+  EXPECT_FALSE(ScoreStage(more.set, more.results, RealStage::kRaw, false, {true}).offset_removed);
+}
+
 TEST(RealScore, JointsAreCountedByTheirState) {
   OneJoint one({0.02, 0.12, 0.04, 0.3});
   const std::vector<bool> tracked = {true, true, false, false};

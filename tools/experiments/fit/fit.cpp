@@ -90,7 +90,8 @@ void AddRow(const Variant& variant, const RealSet& set, const std::vector<StillR
   for (const StillResult& result : results) figures.Add(result);
   const std::vector<bool> all(set.joints.size(), true);
   const StageScore score = ScoreStage(set, results, RealStage::kFinal, true, all);
-  table.rows.push_back({variant.name, set.name, std::to_string(results.size()), Cell(score.mean_cm),
+  const std::string name = set.name + (score.offset_removed ? "" : " (too few: none removed)");
+  table.rows.push_back({variant.name, name, std::to_string(results.size()), Cell(score.mean_cm),
                         fmt::format("{:.1f}", 100 * score.within_5cm),
                         fmt::format("{:.1f}", 100 * score.within_10cm),
                         FormatMedian(figures.explained, 100, "{:.1f}"),

@@ -50,7 +50,8 @@ ScoredSet ScoreSet(const RealSet& set, const std::vector<StillResult>& results, 
   if (!set.peer.empty()) stages.push_back(RealStage::kPeer);
   for (const bool removed : {false, true}) {
     for (const RealStage stage : stages) {
-      scored.scores.push_back(ScoreStage(set, results, stage, removed, counted));
+      const StageScore score = ScoreStage(set, results, stage, removed, counted);
+      if (score.offset_removed == removed) scored.scores.push_back(score);
     }
   }
   return scored;
@@ -71,7 +72,8 @@ Table StillsTable() {
               "Mean of the joints found; the shares are of all joints with truth: a missing one is "
               "wrong. Marks by eye count across the line of sight. Offset removed: of each joint "
               "its median error in camera axes, for eye, rig and other data sets' joints disagree "
-              "by centimetres; of itop_* the median over the other half of the stills, of marked "
+              "by centimetres, where three stills or more say it; of itop_* the median over the "
+              "other half of the stills, of marked "
               "sets over all of them. peer: a network trained on that data set."};
 }
 
@@ -126,7 +128,7 @@ Table RawAndFinalTable() {
 }
 
 void AddRow(const std::string& set, const RawAndFinal& s, Table& table) {
-  if (s.joints == 0) return;
+  if (s.joints == 0 || !s.offset_removed) return;
   table.rows.push_back({set, std::to_string(s.joints), fmt::format("{:.2f}", s.raw_cm),
                         fmt::format("{:.2f}", s.final_cm),
                         fmt::format("{:+.1f}", 100 * (s.final_cm / s.raw_cm - 1))});
@@ -149,6 +151,7 @@ void AddHolesRow(const ScoredSet& scored, std::string_view holes, Table& table) 
 }
 
 void AddStateRow(const RealSet& set, const StateScore& s, Table& table) {
+  if (!s.offset_removed) return;
   const auto share = [](int64_t part, int64_t whole) {
     return whole == 0 ? std::string("-")
                       : Percent(static_cast<double>(part) / static_cast<double>(whole));
@@ -166,6 +169,7 @@ void AddJointRows(const RealSet& set, const ScoredSet& scored, Table& table) {
       if (s.offset_removed && share != s.per_joint_10cm.end())
         cell[s.stage] = Percent(share->second);
     }
+    if (cell.empty()) continue;
     table.rows.push_back({set.name, joint, cell[RealStage::kRaw], cell[RealStage::kRefined],
                           cell[RealStage::kFinal],
                           set.peer.empty() ? "-" : cell[RealStage::kPeer]});
@@ -232,6 +236,7 @@ json StatesToJson(const RealSet& set, const StateScore& s) {
   return {{"name", set.name},
           {"tracked", s.tracked},
           {"tracked_within_10cm", s.tracked_within_10cm},
+          {"offset_removed", s.offset_removed},
           {"others", s.others},
           {"others_within_10cm", s.others_within_10cm}};
 }
