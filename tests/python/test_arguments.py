@@ -131,6 +131,7 @@ def test_tracker_refuses_invalid_settings_while_it_runs(tracker):
         {"camera": "no such camera"}, {"camera": 5}, {"camera": "1,2,3"}, {"camera": "0,0,0,0"},
         {"depth_scale": 0}, {"depth_scale": "1000"}, {"fps": np.nan}, {"rotate": 30},
         {"depth_format": "odd"}, {"mirrored": 1}, {"wait_s": -1}, {"patience_s": 0},
+        {"keep_waiting": True},
     ],  # fmt: skip
     ids=str,
 )

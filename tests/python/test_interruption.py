@@ -5,6 +5,7 @@ import signal
 import struct
 import subprocess
 import sys
+import threading
 import time
 import zlib
 
@@ -57,6 +58,30 @@ def empty_room(tmp_path):
 def test_interrupt_ends_the_wait_for_a_device():
     with pytest.raises(Rung), ringing(0.3):
         ossa.open("openni:", wait_s=60)
+
+
+def test_another_thread_ends_the_wait_for_a_device():
+    stop = threading.Event()
+    began, ended = time.monotonic(), []
+
+    def wait():
+        with pytest.raises(ossa.InputError, match="openni:"):
+            ossa.open("openni:", wait_s=60, keep_waiting=lambda: not stop.is_set())
+        ended.append(time.monotonic() - began)
+
+    waiting = threading.Thread(target=wait)
+    waiting.start()
+    stop.set()
+    waiting.join(20)
+    assert ended and ended[0] < 20
+
+
+def test_an_error_of_keep_waiting_is_raised():
+    def ask():
+        raise RuntimeError("asked")
+
+    with pytest.raises(RuntimeError, match="asked"):
+        ossa.open("openni:", wait_s=60, keep_waiting=ask)
 
 
 def test_interrupt_ends_the_search_for_the_upright_rotation(empty_room, models):

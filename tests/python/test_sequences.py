@@ -116,6 +116,23 @@ def test_compare_returns_the_fields_of_the_command(clip, seen, command, tmp_path
     assert ours["mean_joint_error_cm"] == pytest.approx(theirs["mean_joint_error_cm"])
 
 
+def test_compare_and_learn_use_frame_s_for_files_without_times(truth, seen, tmp_path):
+    table = tmp_path / "seen.txt"
+    lines = ["FRAME JOINT x y z"]
+    for frame, joints in enumerate(truth.joints):
+        named = zip(ossa.JOINTS, joints)
+        lines += [f"{frame} {name} {p[0]:.6f} {p[1]:.6f} {p[2]:.6f}" for name, p in named]
+    table.write_text("\n".join(lines) + "\n")
+    slow = ossa.Sequence(np.arange(len(truth)) / 12.5, truth.joints)
+    judged = ossa.compare(slow, table, time="none", frame_s=1 / 12.5)["results"][0]
+    assert judged["frames"] == len(truth)
+    assert judged["mean_joint_error_cm"] == pytest.approx(0, abs=1e-3)
+    learned = ossa.learn(table, slow, tmp_path / "x.ossagp", correction_only=True, frame_s=1 / 12.5)
+    assert learned["pairs"] == len(truth)
+    with pytest.raises(ossa.InputError, match="frame_s"):
+        ossa.compare(slow, table, frame_s=0)
+
+
 def test_evaluate_returns_the_fields_of_the_command(clip, command):
     model = clip.parents[3] / "tools/tracker/shipped/body.ossa"
     by_command = json.loads(command("evaluate", model, clip, "--every", 8, "--quiet"))

@@ -31,6 +31,7 @@ tools::CompareOptions CompareOptionsFrom(const py::dict& given) {
     options.pairing.time = tools::TimeAlignment::kCorrelate;
   }
   options.reading.mapping_file = given["mapping"].cast<std::string>();
+  options.reading.frame_s = given["frame_s"].cast<double>();
   options.reading.format = given["format"].cast<std::string>();
   options.only = given["only"].cast<std::vector<std::string>>();
   options.skip = given["skip"].cast<std::vector<std::string>>();
@@ -67,6 +68,7 @@ size_t Learn(const std::vector<std::string>& observed, const std::vector<std::st
   options.processes = !given["correction_only"].cast<bool>();
   recon::SkeletonReadOptions reading;
   reading.mapping_file = given["mapping"].cast<std::string>();
+  reading.frame_s = given["frame_s"].cast<double>();
   return Interruptible([&] {
     const auto pairs =
         tools::PairRecordings(observed, truth, reading, [](const auto&) { return GoesOn(); });

@@ -96,6 +96,17 @@ bool GoesOn() {
   }
 }
 
+bool GoesOnAsking(PyObject* ask) {
+  if (!GoesOn()) return false;
+  try {
+    const py::gil_scoped_acquire gil;
+    const auto answer = py::reinterpret_steal<py::object>(PyObject_CallNoArgs(ask));
+    return answer && PyObject_IsTrue(answer.ptr()) == 1;
+  } catch (...) {  // likewise
+    WaitForTheEnd();
+  }
+}
+
 void ThrowIfInterrupted() {
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();
 }

@@ -39,6 +39,9 @@ class GilReleased {
 /// Whether a long run goes on: false once Python has a signal to act on (Ctrl-C). Called without
 /// the GIL, within Interruptible.
 bool GoesOn();
+/// The same, and whether the Python function `ask` says so, which is called without arguments. What
+/// it raises ends the run, too.
+bool GoesOnAsking(PyObject* ask);
 /// Throws what Python raised meanwhile.
 void ThrowIfInterrupted();
 
@@ -68,7 +71,8 @@ struct MethodOptions {
 MethodOptions ReadMethodOptions(const py::dict& given);
 /// forest, refinement, learned, prior, database.
 tracker::ModelFiles ReadModelFiles(const py::dict& given);
-/// camera, depth_scale, depth_format, fps, mirrored, wait_s.
+/// camera, depth_scale, depth_format, fps, mirrored, wait_s, keep_waiting. `given` must outlive
+/// them.
 depth::SourceOptions ReadSourceOptions(const py::dict& given);
 /// motors, hinges, joint_limits.
 tracker::MechanicsBuild ReadMechanics(const py::dict& given);

@@ -54,11 +54,23 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
     return int(value)
 
 
+def frame_s(value: Any) -> float:
+    """Seconds from frame to frame, or 0 for None: the usual ones of a format."""
+    return 0.0 if value is None else number("frame_s", value, 1e-6, 1e3)
+
+
 def flag(name: str, value: Any) -> bool:
     """True or False."""
     if not isinstance(value, (bool, np.bool_)):
         raise refuse(name, "True or False", value)
     return bool(value)
+
+
+def function(name: str, value: Any) -> Any:
+    """What can be called."""
+    if not callable(value):
+        raise refuse(name, "a function", value)
+    return value
 
 
 def one_of(name: str, value: Any, allowed: Iterable[Any]) -> Any:

@@ -73,6 +73,7 @@ def compare(
     max_offset_s: float = 2.0,
     format: Optional[str] = None,
     mapping: Optional[PathLike] = None,
+    frame_s: Optional[float] = None,
     only: Union[str, Several[str]] = (),
     skip: Union[str, Several[str]] = (),
     seed: int = 1,
@@ -96,7 +97,7 @@ def compare(
         Largest offset tried by the correlation, seconds, 0 to 60.
     format : str, optional
         Read every file in this format, one of ossa.SKELETON_FORMATS.
-    mapping : path, optional
+    mapping, frame_s : optional
         As of read_skeletons.
     only, skip : str or list of str
         Only clips, or no clips, whose name contains one of these.
@@ -120,6 +121,7 @@ def compare(
         "max_offset_s": _check.number("max_offset_s", max_offset_s, 0.0, 60.0),
         "format": "" if format is None else _check.one_of("format", format, SKELETON_FORMATS),
         "mapping": _check.optional_path("mapping", mapping),
+        "frame_s": _check.frame_s(frame_s),
         "only": _check.texts("only", only),
         "skip": _check.texts("skip", skip),
         "seed": _check.whole("seed", seed, 0, 2**63 - 1),
@@ -172,6 +174,7 @@ def learn(
     samples: int = 50,
     pairs: int = 2500,
     mapping: Optional[PathLike] = None,
+    frame_s: Optional[float] = None,
     seed: int = 1,
 ) -> dict[str, Any]:
     """Learns a sensor's errors from pairs of observed and true skeletons, as `ossa learn` does.
@@ -190,7 +193,7 @@ def learn(
         Q and S of liu-2016, 1 to 1000 and 2 to 5000.
     pairs : int
         Pairs at most, for liu-2016, full-gp and exemplar; 10 or more.
-    mapping : path, optional
+    mapping, frame_s : optional
         As of read_skeletons.
     seed : int
         Of the clustering.
@@ -206,10 +209,11 @@ def learn(
         "samples": _check.whole("samples", samples, 2, 5000),
         "pairs": _check.whole("pairs", pairs, 10, 2**31 - 1),
         "mapping": _check.optional_path("mapping", mapping),
+        "frame_s": _check.frame_s(frame_s),
         "seed": _check.whole("seed", seed, 0, 2**63 - 1),
     }
     written = _check.path("out", out)
-    if not written.endswith(".ossagp"):
+    if not written.lower().endswith(".ossagp"):
         raise _check.refuse("out", "a name that ends in .ossagp", written)
     with _Files() as files:
         seen = [files.path_of("observed", s) for s in _several("observed", observed)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, NamedTuple, Optional, Union
 
 import numpy as np
@@ -293,7 +294,7 @@ def _reading(format: Any, columns: Any, mapping: Any, frame_s: Any) -> dict[str,
         if columns is None
         else _check.one_of("columns", columns, ("truth", "observed")),
         "mapping": _check.optional_path("mapping", mapping),
-        "frame_s": 0.0 if frame_s is None else _check.number("frame_s", frame_s, 1e-6, 1e3),
+        "frame_s": _check.frame_s(frame_s),
     }
 
 
@@ -384,9 +385,10 @@ def write_skeletons(
         stretched to the bone lengths.
     """
     to = _check.path("path", path)
+    kind = os.path.splitext(to)[1].lower()
     if names is not None:
         _check.one_of("names", names, ("sdk", "cmu", "mixamo", "vrm"))
-        if not to.endswith((".bvh", ".glb")) or (names == "sdk" and to.endswith(".glb")):
+        if kind not in (".bvh", ".glb") or (names == "sdk" and kind == ".glb"):
             expected = "a .bvh, or a .glb and names other than sdk"
             raise _check.refuse(f"names {names!r}", expected, to)
     how = {
@@ -394,7 +396,7 @@ def write_skeletons(
         "surface": _check.optional_path("surface", surface),
         "mesh": _check.optional_path("mesh", mesh),
     }
-    if shapes is not None and not to.endswith(".glb"):
+    if shapes is not None and kind != ".glb":
         raise _check.refuse("shapes", "a .glb", to)
     _native.write_skeletons(_to_use(sequence), to, how, _shapes_option(shapes))
 

@@ -165,6 +165,7 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     depth_format: str = "plain",
     mirrored: bool = False,
     wait_s: float = 0.0,
+    keep_waiting: Optional[Callable[[], bool]] = None,
     patience_s: float = 5.0,
 ) -> Source:
     """Opens a SOURCE, as `ossa track SOURCE` does, and iterates over its depth images.
@@ -197,6 +198,10 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
         unmirrored images.
     wait_s : float
         Seconds to wait for a device to be plugged in.
+    keep_waiting : function, optional
+        Called without arguments ten times a second meanwhile, by the thread that waits: what is
+        not true ends the wait, as if the time were over. `lambda: not stop.is_set()` lets another
+        thread end it by a threading.Event.
     patience_s : float
         Seconds without an image after which reading a device fails.
 
@@ -223,6 +228,8 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     }
     if camera is not None:
         options["camera"] = _camera_option(camera)
+    if keep_waiting is not None:
+        options["keep_waiting"] = _check.function("keep_waiting", keep_waiting)
     if depth_scale is not None:
         options["depth_scale"] = _check.number("depth_scale", depth_scale, 1e-3, 1e6)
     if fps is not None:
