@@ -11,6 +11,7 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/json_nesting.h"
+#include "depth/base/lower_case.h"
 #include "depth/base/open_file.h"
 #include "depth/image/calibration_text.h"
 #include "depth/image/depth_png.h"
@@ -157,7 +158,7 @@ Camera ReadCameraJson(const std::filesystem::path& path) {
 
 bool IsCameraFile(const std::filesystem::path& path) {
   std::error_code none;
-  const std::string extension = path.extension().string();
+  const std::string extension = LowerCaseExtension(path);
   return extension == ".json" || extension == ".yaml" || extension == ".yml" ||
          extension == ".xml" || extension == ".txt" ||
          (!extension.empty() && std::filesystem::is_regular_file(path, none));
@@ -166,7 +167,7 @@ bool IsCameraFile(const std::filesystem::path& path) {
 CameraChoice ReadCameraFile(const std::filesystem::path& path) {
   const std::string text = ReadText(path), name = path.string();
   if (const auto calibration = FindCalibration(text, name)) return ChoiceOf(*calibration, name);
-  if (path.extension() == ".json") return CameraFromJson(text, name);
+  if (LowerCaseExtension(path) == ".json") return CameraFromJson(text, name);
   if (const auto matrix = ReadBareMatrix(text)) return ChoiceOf(*matrix, name);
   throw InputError(name +
                    ": expected a camera_matrix, as OpenCV and ROS write it, or its numbers alone");

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "depth/sensor/depth_list.h"
 #include "depth/sensor/frame_names.h"
 #include "depth/sensor/source_internal.h"
@@ -291,10 +292,7 @@ std::string NameFolderOfDepthIn(const fs::path& folder) {
 }  // namespace
 
 bool IsPngName(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".png" && !path.filename().string().starts_with(".");
+  return LowerCaseExtension(path) == ".png" && !path.filename().string().starts_with(".");
 }
 
 FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& options) {

@@ -1,12 +1,12 @@
 #include "depth/sensor/frame_names.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "depth/base/lower_case.h"
 #include "depth/base/statistics.h"
 
 // Constants: by hand, chosen to separate clock units in file names: the steps of depth cameras, 5
@@ -142,10 +142,7 @@ std::optional<double> GuessUnitOfNumbers(int64_t step, size_t digits) {
 }
 
 bool SaysFrame(std::string_view before) {
-  std::string lower(before);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower.find("frame") != lower.npos;
+  return LowerCase(before).find("frame") != std::string::npos;
 }
 
 // Whether numbers are zero-padded, as counters usually are and clocks are not: 000100, 000200.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "depth/sensor/folder_listing_internal.h"
 #include "depth/sensor/source_internal.h"
 
@@ -22,16 +22,6 @@ std::string ShortText(double value) {
   std::ostringstream text;
   text << value;
   return text.str();
-}
-
-std::string LowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-std::string LowerCaseExtension(const std::filesystem::path& path) {
-  return LowerCase(path.extension().string());
 }
 
 // NAME.oni, or the leftover of a killed recorder: NAME.oni.partial-...

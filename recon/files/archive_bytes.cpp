@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/files/archive_bytes_internal.h"
 #include "recon/files/gzip_bytes_internal.h"
 #include "recon/files/zip_table_internal.h"
@@ -198,7 +199,7 @@ bool IsArchive(const std::filesystem::path& path) {
   if (!head.starts_with("\x1F\x8B")) return false;
   // A gzip file holds an archive if it starts with a valid tar header.
   const std::string name = path.filename().string();
-  if (name.ends_with(".tgz") || name.ends_with(".tar.gz")) return true;
+  if (HasEnding(name, ".tgz") || HasEnding(name, ".tar.gz")) return true;
   const Archive archive(path);
   archive_entry* entry = nullptr;
   return archive.is_open() && archive_read_next_header(archive.get(), &entry) == ARCHIVE_OK;

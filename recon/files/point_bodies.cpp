@@ -7,6 +7,7 @@
 #include <map>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/files/joint_names_internal.h"
 #include "recon/files/marker_centres_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
@@ -91,9 +92,9 @@ bool IsSkinMarker(const std::string& label) {
 // SDK 2 lists Neck, which is above SpineShoulder, before it. Its neck is our ShoulderCenter only if
 // no other point is at the base of the neck.
 bool IsNeckAboveItsBase(const Subject& subject, const std::string& label) {
-  if (Lower(label) != "neck") return false;
+  if (LowerCase(label) != "neck") return false;
   return std::any_of(subject.labels.begin(), subject.labels.end(), [](const std::string& other) {
-    return Lower(other) != "neck" && FindJointByName(other) == Joint::kShoulderCenter;
+    return LowerCase(other) != "neck" && FindJointByName(other) == Joint::kShoulderCenter;
   });
 }
 
@@ -309,7 +310,7 @@ std::optional<double> MetresPerUnit(std::string_view unit) {
       {"meter", 1.0},        {"metre", 1.0},
       {"in", 0.0254},        {"inch", 0.0254},
       {"inches", 0.0254}};
-  const auto found = kUnits.find(Lower(unit));
+  const auto found = kUnits.find(LowerCase(unit));
   if (found == kUnits.end()) return std::nullopt;
   return found->second;
 }

@@ -3,6 +3,7 @@
 #include <set>
 #include <string_view>
 
+#include "depth/base/lower_case.h"
 #include "recon/files/recording_names_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 
@@ -12,7 +13,7 @@ namespace {
 std::string WithoutExtension(std::string name) {
   const size_t slash = name.rfind('/');
   for (const char* extension : {".gz", ".tar", ".tgz", ".zip"}) {
-    if (name.ends_with(extension)) name.resize(name.size() - std::string_view(extension).size());
+    if (HasEnding(name, extension)) name.resize(name.size() - std::string_view(extension).size());
   }
   const size_t dot = name.rfind('.');
   if (dot != std::string::npos && (slash == std::string::npos || dot > slash)) name.resize(dot);
@@ -66,7 +67,7 @@ bool IsIgnoredFile(const std::filesystem::path& path) {
                            "camera.json", "SHA256"}) {
     if (name.starts_with(word)) return true;
   }
-  return name.starts_with('.') || kOther.contains(path.extension().string()) ||
+  return name.starts_with('.') || kOther.contains(LowerCaseExtension(path)) ||
          name == kSaverTimes || HoldsAngles(name);
 }
 

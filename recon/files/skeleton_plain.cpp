@@ -3,6 +3,7 @@
 #include <array>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/files/csv_fields_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/skeleton_jsonl.h"
@@ -16,7 +17,7 @@ bool IsJsonl(const SkeletonSample& sample) {
   if (sample.lines.empty() || !Trimmed(sample.lines[0]).starts_with('{')) return false;
   // Azure Kinect's recordings are JSON, too: one object over many lines, with other keys.
   return sample.lines[0].find("\"bodies\"") != std::string_view::npos ||
-         (sample.lines[0].size() > 1 && sample.name.ends_with(".jsonl"));
+         (sample.lines[0].size() > 1 && HasEnding(sample.name, ".jsonl"));
 }
 
 SkeletonSequence ReadJsonl(SkeletonInput& input) {
@@ -34,7 +35,7 @@ bool IsTrc(const SkeletonSample& sample) {
 }
 
 bool IsBvh(const SkeletonSample& sample) {
-  return !sample.lines.empty() && Lower(sample.lines[0].substr(0, 9)) == "hierarchy";
+  return !sample.lines.empty() && LowerCase(sample.lines[0].substr(0, 9)) == "hierarchy";
 }
 
 // The BVH reader needs the whole text.

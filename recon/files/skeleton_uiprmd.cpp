@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/files/marker_centres_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 
@@ -172,8 +173,8 @@ constexpr SkeletonFormat kUiPrmdFormats[] = {
 }  // namespace
 
 bool HoldsAngles(std::string_view name) {
-  if (name.ends_with(".gz")) name.remove_suffix(3);
-  return name.ends_with("_angles.txt");
+  if (HasEnding(name, ".gz")) name.remove_suffix(3);
+  return HasEnding(name, "_angles.txt");
 }
 
 std::span<const SkeletonFormat> UiPrmdFormats() { return kUiPrmdFormats; }

@@ -7,6 +7,7 @@
 #include "depth/base/error.h"
 #include "depth/base/line_file.h"
 #include "depth/base/long_name.h"
+#include "depth/base/lower_case.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/files/skeleton_jsonl.h"
@@ -46,7 +47,7 @@ std::string JsonlLine(const SkeletonFrame& frame) { return SkeletonJsonLine(fram
 std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path,
                                                   const SkeletonWriteOptions& options) {
   CheckSkeletonExtension(path);
-  const fs::path extension = path.extension();
+  const std::string extension = LowerCaseExtension(path);
   if (extension == ".trc") return NewTrcWriter(path);
   if (extension == ".bvh") return NewBvhWriter(path, options.names);
   if (extension == ".glb") return NewGltfWriter(path, options);
@@ -88,7 +89,7 @@ fs::path PathForBody(const fs::path& path, size_t index, int id) {
 
 void CheckSkeletonExtension(const fs::path& path) {
   static constexpr std::array kKnown = {".jsonl", ".csv", ".trc", ".bvh", ".glb"};
-  if (std::find(kKnown.begin(), kKnown.end(), path.extension()) != kKnown.end()) return;
+  if (std::find(kKnown.begin(), kKnown.end(), LowerCaseExtension(path)) != kKnown.end()) return;
   throw InputError(path.string() + ": expected a name in .jsonl, .csv, .trc, .bvh or .glb, found " +
                    Quoted(path.extension().string()));
 }

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/text_scanner_internal.h"
 
@@ -58,7 +59,7 @@ class AmcParser {
   std::vector<std::string_view> ReadHeader() {
     auto line = Next();
     for (; !line.empty() && line.front().starts_with(':'); line = Next()) {
-      const std::string word = Lower(line.front());
+      const std::string word = LowerCase(line.front());
       if (word == ":degrees") data_.degrees = true;
       if (word == ":radians") data_.degrees = false;
     }
@@ -171,14 +172,14 @@ fs::path AsfBeside(const fs::path& amc) {
   const fs::path folder = amc.has_parent_path() ? amc.parent_path() : fs::path(".");
   for (auto it = fs::directory_iterator(folder, error); !error && it != fs::directory_iterator();
        it.increment(error)) {
-    if (Lower(it->path().extension().string()) == ".asf") skeletons.push_back(it->path());
+    if (LowerCase(it->path().extension().string()) == ".asf") skeletons.push_back(it->path());
   }
   std::sort(skeletons.begin(), skeletons.end());
   if (skeletons.size() == 1) return skeletons.front();
   const fs::path* best = nullptr;
-  const std::string stem = Lower(amc.stem().string());
+  const std::string stem = LowerCase(amc.stem().string());
   for (const fs::path& asf : skeletons) {
-    const bool fits = stem.starts_with(Lower(asf.stem().string()));
+    const bool fits = stem.starts_with(LowerCase(asf.stem().string()));
     if (fits && (!best || asf.stem().string().size() > best->stem().string().size())) best = &asf;
   }
   if (!best) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/text_scanner_internal.h"
 
@@ -30,7 +31,7 @@ class AsfParser {
   AcclaimSkeleton Run() {
     Next();
     while (!line_.empty()) {
-      const std::string section = Lower(line_.front());
+      const std::string section = LowerCase(line_.front());
       if (!section.starts_with(':')) scan_.Fail("a section such as :bonedata", line_.front());
       Next();
       if (section == ":units") {
@@ -71,7 +72,7 @@ class AsfParser {
 
   void ReadUnits() {
     for (; !AtSection(); Next()) {
-      const std::string key = Lower(line_.front());
+      const std::string key = LowerCase(line_.front());
       if (key == "length") {
         Need(2, "length SCALE");
         const double scale = scan_.ToNumber(line_[1], "the length scale");
@@ -86,7 +87,7 @@ class AsfParser {
   }
 
   bool IsDegrees(std::string_view word) {
-    const std::string unit = Lower(word);
+    const std::string unit = LowerCase(word);
     if (!unit.starts_with("deg") && !unit.starts_with("rad")) scan_.Fail("angle deg or rad", word);
     return unit.starts_with("deg");
   }
@@ -98,7 +99,7 @@ class AsfParser {
   /// Angles about fixed axes, applied in the order written: "XYZ" is Rz Ry Rx.
   Eigen::Quaterniond AxisRotation(const Eigen::Vector3d& angles, std::string_view order) {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-    const std::string axes = Lower(order);
+    const std::string axes = LowerCase(order);
     for (size_t i = 0; i < axes.size(); ++i) {
       if (axes.size() != 3 || axes[i] < 'x' || axes[i] > 'z') scan_.Fail("axes such as XYZ", order);
       rotation = Eigen::Quaterniond(Eigen::AngleAxisd(Radians(angles[static_cast<Eigen::Index>(i)]),
@@ -110,7 +111,7 @@ class AsfParser {
 
   void ReadDofs(AcclaimBone& bone) {
     for (size_t w = 1; w < line_.size(); ++w) {
-      const auto name = std::find(kDofNames.begin(), kDofNames.end(), Lower(line_[w]));
+      const auto name = std::find(kDofNames.begin(), kDofNames.end(), LowerCase(line_[w]));
       if (name == kDofNames.end()) scan_.Fail("rx, ry, rz, tx, ty, tz or l", line_[w]);
       const auto dof = static_cast<AcclaimDof>(name - kDofNames.begin());
       if (std::count(bone.dofs.begin(), bone.dofs.end(), dof) > 0) {
@@ -125,7 +126,7 @@ class AsfParser {
     Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
     std::string axes = "XYZ";
     for (; !AtSection(); Next()) {
-      const std::string key = Lower(line_.front());
+      const std::string key = LowerCase(line_.front());
       if (key == "order") {
         ReadDofs(root);
       } else if (key == "axis") {
@@ -144,7 +145,7 @@ class AsfParser {
 
   void ReadBones() {
     while (!AtSection()) {
-      if (Lower(line_.front()) != "begin") scan_.Fail("'begin' of a bone", line_.front());
+      if (LowerCase(line_.front()) != "begin") scan_.Fail("'begin' of a bone", line_.front());
       if (skeleton_.bones.size() == kMaxBones) scan_.Fail("at most 2000 bones", "begin");
       Next();
       skeleton_.bones.push_back(ReadBone());
@@ -158,7 +159,7 @@ class AsfParser {
     double length = 0.0;
     for (;; Next()) {
       if (line_.empty()) scan_.Fail("'end' of bone " + bone.name, "");
-      const std::string key = Lower(line_.front());
+      const std::string key = LowerCase(line_.front());
       if (key == "end") break;
       if (key == "name") {
         Need(2, "name NAME");
@@ -194,7 +195,7 @@ class AsfParser {
   void ReadHierarchy() {
     has_hierarchy_ = true;
     for (; !AtSection(); Next()) {
-      const std::string key = Lower(line_.front());
+      const std::string key = LowerCase(line_.front());
       if (key == "begin" || key == "end") continue;
       const int parent = FindBone(line_.front());
       for (size_t w = 1; w < line_.size(); ++w) {

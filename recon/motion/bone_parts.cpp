@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "depth/base/lower_case.h"
 #include "recon/motion/text_scanner_internal.h"
 
 namespace ossa::recon {
@@ -238,7 +239,7 @@ std::string SimplifyJointName(std::string_view name) {
   const size_t colon = name.rfind(':');
   if (colon != std::string_view::npos) name.remove_prefix(colon + 1);
   std::string simple;
-  for (const char c : Lower(name)) {
+  for (const char c : LowerCase(name)) {
     if (c != '_' && c != ' ' && c != '-' && c != '.') simple += c;
   }
   return simple;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/motion/bvh.h"
 #include "recon/motion/bvh_source_internal.h"
 #include "recon/motion/text_scanner_internal.h"
@@ -29,7 +30,7 @@ class Parser {
       scan_.Expect("ROOT");
       root_ = bvh_.joints.size();
       ReadJoints();
-    } while (Lower(scan_.PeekWord()) == "root");
+    } while (LowerCase(scan_.PeekWord()) == "root");
     scan_.Expect("MOTION");
     ReadMotion();
     return std::move(bvh_);
@@ -42,7 +43,7 @@ class Parser {
     OpenJoint(-1);
     while (!open_.empty()) {
       const std::string_view word = scan_.Word();
-      const std::string key = Lower(word);
+      const std::string key = LowerCase(word);
       if (key == "offset") {
         bvh_.joints[Top()].offset = Vector("OFFSET");
       } else if (key == "channels") {
@@ -98,7 +99,7 @@ class Parser {
     for (int i = 0; i < static_cast<int>(count); ++i) {
       const std::string_view word = scan_.Word();
       const auto name =
-          std::find(kLowerCaseChannels.begin(), kLowerCaseChannels.end(), Lower(word));
+          std::find(kLowerCaseChannels.begin(), kLowerCaseChannels.end(), LowerCase(word));
       if (name == kLowerCaseChannels.end()) {
         scan_.Fail("a channel such as Xposition or Zrotation", word);
       }
@@ -115,7 +116,7 @@ class Parser {
     scan_.Expect("{");
     scan_.Expect("OFFSET");
     bvh_.joints[Top()].end_sites.push_back(Vector("End Site OFFSET"));
-    if (Lower(scan_.PeekWord()) == "channels") {
+    if (LowerCase(scan_.PeekWord()) == "channels") {
       scan_.Word();
       const std::string_view count = scan_.Word();
       if (count != "0") scan_.Fail("no channels in an End Site", count);
@@ -125,13 +126,13 @@ class Parser {
 
   /// The number after "NAME:", with or without white space around the colon and in the name.
   double NumberAfter(const std::string& name, const std::string& what) {
-    std::string wanted = Lower(name);
+    std::string wanted = LowerCase(name);
     std::erase(wanted, ' ');
     std::string seen;
     while (true) {
       const std::string_view word = scan_.Word();
       const size_t colon = word.find(':');
-      seen += Lower(word.substr(0, colon));
+      seen += LowerCase(word.substr(0, colon));
       if (word.empty() || !wanted.starts_with(seen) ||
           (colon != std::string_view::npos && seen != wanted)) {
         scan_.Fail("'" + name + ":'", word);

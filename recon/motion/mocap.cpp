@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "depth/base/naming_the_file.h"
 #include "recon/motion/acclaim_internal.h"
 #include "recon/motion/authored.h"
@@ -34,10 +35,10 @@ std::string ParseSubject(const std::string& stem) {
 enum class Kind { kOther, kBvh, kAmc, kHumanoid3d };
 
 Kind DetectKind(const fs::path& path) {
-  const std::string extension = Lower(path.extension().string());
+  const std::string extension = LowerCase(path.extension().string());
   if (extension == ".bvh") return Kind::kBvh;
   if (extension == ".amc") return Kind::kAmc;
-  const bool humanoid = Lower(path.filename().string()).starts_with("humanoid3d_");
+  const bool humanoid = LowerCase(path.filename().string()).starts_with("humanoid3d_");
   return humanoid && (extension == ".txt" || extension == ".json") ? Kind::kHumanoid3d
                                                                    : Kind::kOther;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "depth/base/open_file.h"
 #include "recon/motion/text_scanner_internal.h"
 
@@ -126,7 +127,7 @@ bool TextScanner::IsCutInLastNumber() const {
 
 void TextScanner::Expect(std::string_view word) {
   const std::string_view found = Word();
-  if (Lower(found) != Lower(word)) Fail("'" + std::string(word) + "'", found);
+  if (LowerCase(found) != LowerCase(word)) Fail("'" + std::string(word) + "'", found);
 }
 
 double TextScanner::Number(const std::string& what) { return ToNumber(Word(), what); }
@@ -160,14 +161,6 @@ std::string ReadTextFile(const std::filesystem::path& path) {
   file.read(text.data(), static_cast<std::streamsize>(size));
   if (!file) throw InputError(path.string() + ": cannot be read");
   return text;
-}
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
 }
 
 }  // namespace ossa::recon

@@ -50,7 +50,4 @@ class TextScanner {
 /// The whole file; throws InputError when it cannot be read or is larger than 1 GiB.
 std::string ReadTextFile(const std::filesystem::path& path);
 
-/// ASCII lower case.
-std::string Lower(std::string_view text);
-
 }  // namespace ossa::recon

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "depth/base/one_line.h"
 #include "depth/sensor/frame_source.h"
 #include "forest/forest.h"
@@ -305,7 +306,7 @@ void Show(const SourceArguments& arguments, const std::string& surface, bool is_
   if (IsDevice(arguments.name)) return ShowDevice(arguments);
   const fs::path path = arguments.name;
   for (const FileKind& kind : kKinds) {
-    const bool is_named_so = kind.extension != nullptr && arguments.name.ends_with(kind.extension);
+    const bool is_named_so = kind.extension != nullptr && HasEnding(arguments.name, kind.extension);
     if (is_depth || (!is_named_so && !kind.is(path))) continue;
     if (kind.show == nullptr) return kind.show_with(path, LoadSurface(surface));
     return kind.show(path);

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/files/skeleton_io.h"
 #include "tools/commands/command.h"
 #include "tools/commands/process.h"
@@ -39,7 +40,7 @@ bool IsReadOf(const fs::path& folder, const fs::path& output) {
   if (inside == "." || first == "depth" || first == "parts" || first == "shards") return true;
   const bool is_data_set = fs::exists(folder / "manifest.json", unknown);
   return inside == "manifest.json" || inside == "truth.jsonl" || inside == "camera.json" ||
-         (!is_data_set && inside == first && inside.extension() == ".png");
+         (!is_data_set && inside == first && LowerCaseExtension(inside) == ".png");
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std
 }
 
 void CheckExtension(const char* option, const std::string& path, const char* extension) {
-  if (path.empty() || path.ends_with(extension)) return;
+  if (path.empty() || HasEnding(path, extension)) return;
   throw UsageError(
       fmt::format("{}: expected a name that ends in {}, found '{}'", option, extension, path));
 }
@@ -69,7 +70,7 @@ void CheckNotOtherKind(const char* option, const std::string& path, const char* 
   for (const char* other : {".ossa", ".ossadb", ".ossaprior", ".ossagp", ".ossarefine", ".ossalook",
                             ".ossanet", ".ossasurface", ".ossaperson", ".ossamesh", ".oni",
                             ".jsonl", ".json", ".bvh", ".trc", ".csv", ".glb", ".png", ".html"}) {
-    if (path.ends_with(other)) CheckExtension(option, path, extension);
+    if (HasEnding(path, other)) CheckExtension(option, path, extension);
   }
 }
 
@@ -138,8 +139,8 @@ void WriteOptions::AddSurfaceTo(CLI::App& app) {
 }
 
 void WriteOptions::Check(const std::string& out) const {
-  const bool is_glb = fs::path(out).extension() == ".glb";
-  if (!names.empty() && !is_glb && fs::path(out).extension() != ".bvh") {
+  const bool is_glb = LowerCaseExtension(out) == ".glb";
+  if (!names.empty() && !is_glb && LowerCaseExtension(out) != ".bvh") {
     throw UsageError("--bvh-names " + names + ": expected --out FILE.bvh or FILE.glb with it");
   }
   if (names == "sdk" && is_glb) {
@@ -155,7 +156,7 @@ void WriteOptions::Check(const std::string& out) const {
 }
 
 recon::SkeletonWriteOptions WriteOptions::For(const std::string& out) const {
-  const bool is_glb = fs::path(out).extension() == ".glb";
+  const bool is_glb = LowerCaseExtension(out) == ".glb";
   // Both also apply to the fit and the page, whatever is written.
   return tracker::LoadWriteOptions(out, {names, is_glb ? surface : "", is_glb ? mesh : ""});
 }

@@ -12,6 +12,7 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "recon/database/posture_database.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/filters/butterworth.h"
@@ -83,7 +84,7 @@ bool GoesToFolder(const ReconstructArguments& a, const std::vector<recon::Skelet
   const std::filesystem::path out(a.out);
   if (clips.size() == 1) return out.extension().empty() && !clips[0].name.empty();
   for (const char* one : {".jsonl", ".bvh", ".glb", ".trc", ".csv"}) {
-    if (out.extension() != one) continue;
+    if (LowerCaseExtension(out) != one) continue;
     throw UsageError(fmt::format("{}: expected a folder for {} recordings, as {} and {}", a.out,
                                  clips.size(), clips[0].name, clips[1].name));
   }

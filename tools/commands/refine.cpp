@@ -7,6 +7,7 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/checksummed_container.h"
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "depth/base/train_interrupted.h"
 #include "forest/forest.h"
 #include "forest/training/train.h"
@@ -71,7 +72,7 @@ void AddLearningOptions(CLI::App& app, tools::RefinementStageOptions& options) {
 
 void CheckArguments(const CLI::App& app, const RefineArguments& a) {
   // .ossalook: the former extension.
-  if (!a.out.ends_with(".ossalook")) CheckNotOtherKind("--out", a.out, ".ossarefine");
+  if (!HasEnding(a.out, ".ossalook")) CheckNotOtherKind("--out", a.out, ".ossarefine");
   if (a.bones && a.after.empty())
     throw UsageError("--bones: expected --after FILE.ossarefine, too");
   if (a.bones && app.count("--shifted") + app.count("--shift") > 0) {

@@ -2,12 +2,15 @@
 
 #include <filesystem>
 
+#include "depth/base/lower_case.h"
+
 namespace ossa::tools {
 namespace {
 
 bool IsCmuFolder(const std::string& source) {
   std::filesystem::path path = std::filesystem::path(source).lexically_normal();
-  if (!path.has_filename() || path.extension() == ".bvh" || path.extension() == ".amc") {
+  const std::string extension = LowerCaseExtension(path);
+  if (!path.has_filename() || extension == ".bvh" || extension == ".amc") {
     path = path.parent_path();
   }
   return path.filename().string().starts_with("cmu");

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::tracker {
@@ -36,7 +37,8 @@ std::shared_ptr<const recon::BodyMesh> LoadBodyMesh(const std::string& surface_f
 
 recon::SkeletonWriteOptions LoadWriteOptions(const std::filesystem::path& out,
                                              const WriteChoice& choice) {
-  const bool is_glb = out.extension() == ".glb", is_bvh = out.extension() == ".bvh";
+  const std::string extension = LowerCaseExtension(out);
+  const bool is_glb = extension == ".glb", is_bvh = extension == ".bvh";
   recon::SkeletonWriteOptions options;
   options.names = ParseNames(choice.names, is_glb);
   if (!choice.names.empty() && !is_glb && !is_bvh) {

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "depth/base/lower_case.h"
+
 namespace ossa::tracker {
 namespace {
 
@@ -42,7 +44,7 @@ bool HoldsImages(const std::filesystem::path& source) {
   std::error_code unknown;  // reported when the source is opened
   if (std::filesystem::is_directory(source, unknown)) return true;
   return std::filesystem::is_regular_file(source, unknown) && depth::IsRecording(source) &&
-         source.extension() != ".oni" && source.extension() != ".mkv";
+         LowerCaseExtension(source) != ".oni" && LowerCaseExtension(source) != ".mkv";
 }
 
 // The default camera, where it is chosen by the images' size.

@@ -1,19 +1,15 @@
 #include "depth/sensor/readers/bag_topics.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 
 namespace ossa::depth {
 namespace {
 
-bool SaysDepth(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name.find("depth") != std::string::npos;
-}
+bool SaysDepth(std::string_view name) { return LowerCase(name).find("depth") != std::string::npos; }
 
 std::string Listed(const std::vector<std::string>& names) {
   std::string text;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <fstream>
 
 #include "depth/base/atomic_file.h"
@@ -40,6 +41,16 @@ TEST_P(EveryFormat, LeavesNothingWithoutFinish) {
     EXPECT_EQ(writer.frame_count(), 5);
   }
   EXPECT_EQ(OnlyFileIn(folder_.path()), "");
+}
+
+TEST_P(EveryFormat, IsAsLongWithAnExtensionInCapitals) {
+  std::string capitals = GetParam();
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  WriteSkeletons(path(), ExampleSequence(5));
+  WriteSkeletons(folder_ / ("y" + capitals), ExampleSequence(5));
+  // A .trc states its own name, which is as long.
+  EXPECT_EQ(std::filesystem::file_size(folder_ / ("y" + capitals)),
+            std::filesystem::file_size(path()));
 }
 
 long Resident_kB() {

@@ -193,6 +193,15 @@ TEST_F(CompareCommand, PairsClipsWhereAResultHasAnExtraBody) {
   EXPECT_EQ(json["tests"][0]["clips"], 6);
 }
 
+TEST_F(CompareCommand, EscapesFileNamesInItsMarkdownTables) {
+  const std::string odd = folder_ / "a|b\n<i>.jsonl";
+  std::filesystem::copy_file(truth_, odd);
+  const auto run = RunOssa({"compare", odd, odd, near_, "--report", folder_ / "out.HTML"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_NE(run.out.find("| a\\|b\\x0A\\<i>.jsonl | near.trc |"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("a|b"), std::string::npos) << run.out;
+}
+
 // The name of the file is not valid UTF-8.
 TEST_F(CompareCommand, WritesAReportInUtf8ForAnyFileName) {
   const std::string odd = folder_ / "a<\xFF.jsonl", report = folder_ / "r.html";

@@ -306,6 +306,11 @@ TEST_F(ReconstructCommand, PhysicsFillsJointsThatAFileLacks) {
   EXPECT_EQ(hand->state, recon::TrackingState::kInferred);
 }
 
+TEST_F(ReconstructCommand, TakesExtensionsInUpperCase) {
+  const auto made = Made({"--method", "none", "--bvh-names", "vrm"}, "out.BVH");
+  EXPECT_EQ(made.frames.size(), 60u);
+}
+
 // A .bvh has a fixed frame rate: gaps are filled at 30 frames a second.
 TEST_F(ReconstructCommand, RefusesToFillAHugeGapInABvh) {
   auto recording = Recording();
