@@ -186,6 +186,11 @@ bool EscapesFolder(const std::filesystem::path& name) {
   return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
 }
 
+// As the member is called once it is unpacked: 'tar cf x.tar .' writes "./walk.bvh".
+std::string NameInFolder(const std::filesystem::path& name) {
+  return name.lexically_normal().generic_string();
+}
+
 }  // namespace
 
 bool IsGzip(const std::filesystem::path& path) { return FirstBytes(path, 2) == "\x1F\x8B"; }
@@ -222,7 +227,7 @@ std::map<std::string, std::string> ReadArchive(const std::filesystem::path& path
       throw InputError(path.string() + "#" + name +
                        ": expected members named as within the archive, found one that leads out");
     }
-    members[name] = archive.Content(total);
+    members[NameInFolder(name)] = archive.Content(total);
   }
   archive.CheckEnd();
   return members;

@@ -126,6 +126,14 @@ TEST(Archives, ATarThatWasCutBetweenTwoMembersIsRefused) {
   ExpectRefused([&] { ReadSkeletonClips(folder / "x.tar"); }, "cut short");
 }
 
+// 'tar cf x.tar .' begins names with "./".
+TEST(Archives, MembersAreCalledAsOnceUnpacked) {
+  const TemporaryFolder folder;
+  WriteTar(folder / "x.tar", {{"./a.jsonl", Jsonl(3)}, {"./sub//b.jsonl", Jsonl(5)}});
+  const std::map<std::string, size_t> unpacked = {{"a", 3}, {"sub/b", 5}};
+  EXPECT_EQ(FramesIn(folder / "x.tar"), unpacked);
+}
+
 TEST(Archives, OfTooManyMembersAreRefused) {
   const TemporaryFolder folder;
   const std::string member = TarHeader("a.jsonl", 0);
