@@ -133,6 +133,7 @@ Aligned AlignAt(const JointTrack& truth, const JointTrack& result, double shift_
   CommonJoints common;
   Aligned aligned;
   for (size_t f = 0; f < result.time_s.size(); ++f) {
+    if (result.time_s[f] > result.time_s.front() + kLongest_s) break;
     const auto posture = PostureAt(truth, result.time_s[f] + shift_s);
     if (!posture) continue;
     common.Add(result.postures[f], *posture);
@@ -192,6 +193,16 @@ std::vector<size_t> FindPeaks(const std::vector<Correlation>& score) {
   return peaks;
 }
 
+// The top of the parabola through a peak's correlation and those beside it.
+double RefinedPeak(const std::vector<Correlation>& score, size_t peak) {
+  const auto place = static_cast<double>(peak);
+  if (peak == 0 || peak + 1 >= score.size()) return place;
+  const double before = score[peak - 1].value, after = score[peak + 1].value;
+  const double curvature = before - 2 * score[peak].value + after;
+  if (curvature >= -1e-12) return place;
+  return place + std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+}
+
 // Half of the shorter recording must overlap.
 long FewestShared(const Speeds& a, const Speeds& b) {
   const auto longest = [](const Speeds& speeds) {
@@ -234,25 +245,20 @@ ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double
     if (stop && stop()) throw Interruption{};
     score.push_back(Correlate(a, b, shift, fewest));
   }
+  const auto offset_s = [reach](double at) { return (at - static_cast<double>(reach)) * kStep_s; };
   const std::vector<size_t> peaks = FindPeaks(score);
   size_t best = peaks.front();
   double most = 0;
   for (const size_t peak : peaks) {
     if (peaks.size() == 1) break;
     if (stop && stop()) throw Interruption{};
-    const double shift_s = (static_cast<double>(peak) - static_cast<double>(reach)) * kStep_s;
-    const double agreement = PositionSignificance(truth, result, shift_s);
+    const double agreement =
+        PositionSignificance(truth, result, offset_s(static_cast<double>(peak)));
     if (agreement <= most) continue;
     best = peak;
     most = agreement;
   }
-  double shift = static_cast<double>(best) - static_cast<double>(reach);
-  if (best > 0 && best + 1 < score.size()) {
-    const double before = score[best - 1].value, after = score[best + 1].value;
-    const double curvature = before - 2 * score[best].value + after;
-    if (curvature < -1e-12) shift += std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
-  }
-  return {shift * kStep_s, score[best].significance};
+  return {offset_s(RefinedPeak(score, best)), score[best].significance};
 }
 
 double FindClockOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s,
