@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "recon/files/point_bodies_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
@@ -13,6 +14,7 @@ struct TrcHeader {
   double metres_per_unit = 0.0;
   size_t markers = 0;
   std::optional<size_t> frames;
+  double rate_hz = 0.0;  // by which the times are doubted only; 0: none is stated
 };
 
 std::vector<std::string> NotEmpty(const std::vector<std::string_view>& fields) {
@@ -45,6 +47,8 @@ TrcHeader ReadHeader(TextLines& lines) {
       header.markers = static_cast<size_t>(WholeNumberIn(lines, values[i], "NumMarkers", 1, 10000));
     } else if (keys[i] == "NumFrames" && !values[i].empty()) {
       header.frames = static_cast<size_t>(WholeNumberIn(lines, values[i], "NumFrames", 0, 1e9));
+    } else if (keys[i] == "DataRate") {
+      std::from_chars(values[i].data(), values[i].data() + values[i].size(), header.rate_hz);
     } else if (keys[i] == "Units") {
       const auto unit = MetresPerUnit(values[i]);
       if (!unit) lines.Fail("Units mm, cm, m or inches", values[i]);
@@ -154,6 +158,19 @@ class TrcRows {
   size_t decimals_ = 0;  // decimals of the previous row, if uniform
 };
 
+// Times of another unit than seconds pass for a recording of another length.
+void WarnOfOtherRate(const TrcHeader& header, SkeletonSequence& sequence) {
+  constexpr double kFar = 10.0;  // a ratio, by hand: programs thin out rows and leave the DataRate
+  const double length_s = sequence.frames.back().time_s - sequence.frames.front().time_s;
+  if (!(header.rate_hz > 0) || !(length_s > 0)) return;
+  const double found_hz = static_cast<double>(sequence.frames.size() - 1) / length_s;
+  if (found_hz < kFar * header.rate_hz && header.rate_hz < kFar * found_hz) return;
+  sequence.warnings.push_back(fmt::format(
+      "{}: DataRate says {:g} frames a second, the times are those of {:.3g}: the times "
+      "are read, as seconds",
+      sequence.source, header.rate_hz, found_hz));
+}
+
 }  // namespace
 
 SkeletonSequence ReadTrc(SkeletonInput& input) {
@@ -179,6 +196,7 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
                     "are read",
                     input.name, *header.frames, sequence.frames.size()));
   }
+  WarnOfOtherRate(header, sequence);
   RemoveEmptyBodies(sequence);
   RotateUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
   return sequence;

@@ -92,6 +92,16 @@ TEST(Trc, OfMoreOrFewerRowsThanItSaysIsWhatIsThereWithAWarning) {
 }
 
 // Missing digits would give another position.
+TEST(Trc, TimesOfAnotherUnitThanItsRatesAreToldOf) {
+  std::string text = ReplacedAll(kTrc, "\t0.03\t", "\t33.3\t");
+  const auto read = ReadText(ReplacedAll(text, "\t0.06\t", "\t66.7\t"));
+  EXPECT_EQ(read.frames[2].time_s, 66.7);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].find("DataRate says 30 frames a second, the times are those of 0.03"),
+            std::string::npos)
+      << read.warnings[0];
+}
+
 TEST(Trc, CutInsideItsLastRowIsRefused) {
   const size_t row = kTrc.find("3\t0.06");
   for (size_t length = row + 1; length + 1 < kTrc.size(); ++length) {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
 
@@ -62,7 +63,7 @@ std::vector<fs::path> ListPngs(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".png") files.push_back(entry.path());
+    if (LowerCaseExtension(entry.path()) == ".png") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;

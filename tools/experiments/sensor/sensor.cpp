@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
 #include "recon/motion/mocap.h"
@@ -31,7 +32,7 @@ SensorStatistics OfRealFrames(const fs::path& shared) {
       throw InputError(folder.string() + ": expected a folder of real depth frames (--shared)");
     }
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.path().extension() != ".png") continue;
+      if (LowerCaseExtension(entry.path()) != ".png") continue;
       Gather(depth::ReadDepthPng(entry.path()), focal_px, statistics);
     }
   }
@@ -81,7 +82,7 @@ std::optional<SensorStatistics> OfItop(const fs::path& shared) {
   if (!fs::is_directory(folder)) return std::nullopt;
   SensorStatistics statistics;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() != ".png") continue;
+    if (LowerCaseExtension(entry.path()) != ".png") continue;
     Gather(depth::ReadDepthPng(entry.path()), kItopFocal_px, statistics);
   }
   return statistics;
