@@ -1,6 +1,7 @@
 // A comparison as JSON and as tables for a terminal.
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "depth/base/one_line.h"
@@ -69,52 +70,70 @@ std::string WithInterval(const std::optional<double>& value,
   return fmt::format("{} [{:.2f}, {:.2f}]", Number(value), interval->low, interval->high);
 }
 
+// A row of the summary: its name and its cell of one result.
+struct SummaryRow {
+  const char* name;
+  std::string (*cell)(const ComparedResult&);
+};
+
+std::string OffsetCell(const ComparedResult& r) {
+  return r.mean.same_clock ? "0 (times agree)" : fmt::format("{:+.3f}", r.mean.offset_s);
+}
+
+using OfResult = const ComparedResult&;
+constexpr std::array kSummary = {
+    SummaryRow{"clips", [](OfResult r) { return std::to_string(r.clips.size()); }},
+    SummaryRow{"frames", [](OfResult r) { return std::to_string(r.mean.frames); }},
+    SummaryRow{"mean error cm",
+               [](OfResult r) {
+                 return WithInterval(r.mean.mean_joint_error_cm, r.mean_joint_error_interval);
+               }},
+    SummaryRow{"eq. 18 cm",
+               [](OfResult r) {
+                 return WithInterval(r.mean.parent_relative_error_cm,
+                                     r.parent_relative_error_interval);
+               }},
+    SummaryRow{"frames >20cm %",
+               [](OfResult r) { return Number(r.mean.fraction_frames_over_20cm, 1, 100); }},
+    SummaryRow{"joints missing %",
+               [](OfResult r) { return Number(r.mean.fraction_joints_missing, 1, 100); }},
+    SummaryRow{"joints <10cm %",
+               [](OfResult r) { return Number(r.mean.fraction_joints_within_10cm, 1, 100); }},
+    SummaryRow{"mAP 10cm %", [](OfResult r) { return Number(r.mean.map_10cm, 1, 100); }},
+    SummaryRow{"acceleration error cm/frame^2",
+               [](OfResult r) { return Number(r.mean.acceleration_error_cm_per_frame2); }},
+    SummaryRow{"offset-free cm", [](OfResult r) { return Number(r.mean.offset_removed_error_cm); }},
+    SummaryRow{"bone length variation %",
+               [](OfResult r) { return Number(r.mean.bone_length_variation_percent); }},
+    SummaryRow{"p99 cm", [](OfResult r) { return Number(r.mean.p99_cm, 1); }},
+    SummaryRow{"time offset s", OffsetCell},
+};
+
+std::string NoteOf(const Comparison& comparison) {
+  std::string note;
+  for (const ComparedResult& r : comparison.results) {
+    if (r.missing_clips.empty()) continue;
+    note += fmt::format("{} lacks {} of the truth's clips, e.g. {}. ", r.label,
+                        r.missing_clips.size(), r.missing_clips[0]);
+  }
+  return note +
+         "Over several clips: the mean of the clips' numbers, with its 95 % bootstrap interval. "
+         "eq. 18: joints relative to their parents (Shum 2013). Offset-free: each joint's constant "
+         "offset taken away.";
+}
+
 Table SummaryTable(const Comparison& comparison) {
   Table table;
   table.title = fmt::format("Against {} ({}{})", comparison.truth,
                             comparison.rigid ? "one rigid transform a clip" : "no alignment",
                             comparison.found_only ? ", joints found only" : "");
   table.columns = {""};
-  table.rows = {{"clips"},
-                {"frames"},
-                {"mean error cm"},
-                {"eq. 18 cm"},
-                {"frames >20cm %"},
-                {"joints missing %"},
-                {"joints <10cm %"},
-                {"mAP 10cm %"},
-                {"acceleration error cm/frame^2"},
-                {"offset-free cm"},
-                {"bone length variation %"},
-                {"p99 cm"},
-                {"time offset s"}};
-  for (const ComparedResult& r : comparison.results) {
-    const ClipMetrics& m = r.mean;
-    table.columns.push_back(r.label);
-    const std::vector<std::string> numbers = {
-        std::to_string(r.clips.size()),
-        std::to_string(m.frames),
-        WithInterval(m.mean_joint_error_cm, r.mean_joint_error_interval),
-        WithInterval(m.parent_relative_error_cm, r.parent_relative_error_interval),
-        Number(m.fraction_frames_over_20cm, 1, 100),
-        Number(m.fraction_joints_missing, 1, 100),
-        Number(m.fraction_joints_within_10cm, 1, 100),
-        Number(m.map_10cm, 1, 100),
-        Number(m.acceleration_error_cm_per_frame2),
-        Number(m.offset_removed_error_cm),
-        Number(m.bone_length_variation_percent),
-        Number(m.p99_cm, 1),
-        m.same_clock ? "0 (times agree)" : fmt::format("{:+.3f}", m.offset_s)};
-    for (size_t n = 0; n < numbers.size(); ++n) table.rows[n].push_back(numbers[n]);
-    if (!r.missing_clips.empty()) {
-      table.note += fmt::format("{} lacks {} of the truth's clips, e.g. {}. ", r.label,
-                                r.missing_clips.size(), r.missing_clips[0]);
-    }
+  for (const ComparedResult& r : comparison.results) table.columns.push_back(r.label);
+  for (const SummaryRow& row : kSummary) {
+    table.rows.push_back({row.name});
+    for (const ComparedResult& r : comparison.results) table.rows.back().push_back(row.cell(r));
   }
-  table.note +=
-      "Over several clips: the mean of the clips' numbers, with its 95 % bootstrap interval. "
-      "eq. 18: joints relative to their parents (Shum 2013). Offset-free: each joint's constant "
-      "offset taken away.";
+  table.note = NoteOf(comparison);
   return table;
 }
 
