@@ -4,6 +4,7 @@
 
 #include "recon/body/parts.h"
 #include "recon/body/standard_body.h"
+#include "recon/refine/free_space.h"
 #include "tools/tracker/choose_posture_internal.h"
 
 namespace ossa::tracker {
@@ -161,6 +162,16 @@ void InferElsewhere(const recon::Posture& said_m, const depth::Camera& camera, d
     const Eigen::Vector3d& place_m = said_m.position_m[j];
     const bool is_there = (place_m - seen.posture.position_m[j]).norm() <= elsewhere_m;
     if (!is_there || !IsInImage(camera, place_m)) seen.state[j] = recon::TrackingState::kInferred;
+  }
+}
+
+void InferSeenThrough(const recon::Posture& said_m, const depth::DepthFrame& frame,
+                      recon::TrackedPosture& seen) {
+  for (size_t j = 0; j < kJointCount; ++j) {
+    if (seen.state[j] == recon::TrackingState::kTracked &&
+        recon::IsInFreeSpace(said_m.position_m[j], frame)) {
+      seen.state[j] = recon::TrackingState::kInferred;
+    }
   }
 }
 

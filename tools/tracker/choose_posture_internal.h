@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "depth/image/camera.h"
+#include "depth/image/depth_frame.h"
 #include "forest/forest.h"
 #include "forest/proposals/propose.h"
 #include "recon/posture.h"
@@ -53,6 +54,11 @@ recon::TrackedPosture ChoosePosture(const forest::ForestModel& model,
 /// outside the image.
 void InferElsewhere(const recon::Posture& said_m, const depth::Camera& camera, double elsewhere_m,
                     recon::TrackedPosture& seen);
+
+/// Marks tracked joints as inferred where `said_m` has them in free space (recon::IsInFreeSpace):
+/// no surface of the body is there, so the forest took another part for the joint.
+void InferSeenThrough(const recon::Posture& said_m, const depth::DepthFrame& frame,
+                      recon::TrackedPosture& seen);
 
 /// Bone lengths of an average adult; slow update of a person's lengths from bones with two tracked
 /// ends.

@@ -314,6 +314,8 @@ void Finish(SkeletonWork& work) {
     std::ranges::replace(told.state, TrackingState::kTracked, TrackingState::kInferred);
   }
   InferElsewhere(work.posture, work.frame.camera, work.options.hold.elsewhere_m, told);
+  // At the observation, not at the result: a smoothed joint that lags behind was seen all the same.
+  InferSeenThrough(work.observed.posture, work.frame, told);
   work.body.joints =
       MakeJointEstimates(work.posture, work.orientations, told, work.reconstructed.reliability);
   work.person.shown = work.posture;

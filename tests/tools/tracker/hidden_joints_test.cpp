@@ -50,6 +50,26 @@ TEST(HiddenJoints, AreNotLeftWhereTheCameraLooksThroughThem) {
   EXPECT_EQ(scene.body.raw.posture.position_m[kHand], said) << "raw is what was inferred";
 }
 
+// The stump of an arm whose hand is outside of the sensor's range was classified as the hand.
+TEST(HiddenJoints, AreNotTrackedWhereTheCameraLooksThroughThem) {
+  HandInTheAir scene(recon::TrackingState::kTracked);
+  scene.Hand(1);
+  EXPECT_EQ(scene.body.joints[kHand].state, recon::TrackingState::kInferred);
+  EXPECT_EQ(scene.body.joints[kWrist].state, recon::TrackingState::kTracked);
+  EXPECT_EQ(scene.body.raw.state[kHand], recon::TrackingState::kTracked) << "raw stays raw";
+}
+
+// Strong smoothing lags behind a fast hand, which is seen nevertheless.
+TEST(HiddenJoints, AreTrackedWhereSmoothingLagsBehindWhatIsSeen) {
+  HandInTheAir scene(recon::TrackingState::kTracked);
+  scene.options.smoothing = SmoothingPreset("verysmooth");
+  scene.Hand(10);
+  scene.body.raw.posture = scene.render.joints.front();
+  scene.Step(10 / 30.0);
+  ASSERT_TRUE(recon::IsInFreeSpace(scene.body.joints[kHand].position_m, scene.render.frame));
+  EXPECT_EQ(scene.body.joints[kHand].state, recon::TrackingState::kTracked);
+}
+
 TEST(HiddenJoints, ThatAreSeenAgainStayWhereTheyAreSeen) {
   HandInTheAir scene(recon::TrackingState::kInferred);
   scene.Hand(10);
@@ -84,7 +104,8 @@ TEST(HiddenJoints, DoNotLeap) {
       << "what is seen is there at once";
 }
 
-// A joint that the forest detects as a hand, and the refinement places aside and below.
+// A joint that the forest detects as a hand, and the refinement places farther back, aside or
+// below.
 recon::TrackingState StateOfHandSaid(const Eigen::Vector3d& off_m) {
   HandInTheAir scene(recon::TrackingState::kTracked);
   scene.options.reconstructor.method = "best";
@@ -99,7 +120,7 @@ recon::TrackingState StateOfHandSaid(const Eigen::Vector3d& off_m) {
 
 TEST(HiddenJoints, IncludeObservationsOfOtherObjects) {
   const double far_m = HoldOptions().elsewhere_m + 0.1;
-  EXPECT_EQ(StateOfHandSaid({0.1, 0.0, 0.0}), recon::TrackingState::kTracked);
+  EXPECT_EQ(StateOfHandSaid({0.0, 0.0, 0.1}), recon::TrackingState::kTracked);
   EXPECT_EQ(StateOfHandSaid({far_m, 0.0, 0.0}), recon::TrackingState::kInferred);
   EXPECT_EQ(StateOfHandSaid({0.0, -far_m, 0.0}), recon::TrackingState::kInferred);
 }

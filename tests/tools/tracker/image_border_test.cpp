@@ -47,7 +47,10 @@ class AtTheBorder : public testing::Test {
     for (auto& place_m : posture.position_m) place_m += move_m;
     return posture;
   }
-  AtTheBorder() { frame_.camera = depth::KinectV1Camera(640, 480); }
+  AtTheBorder() {
+    frame_.camera = depth::KinectV1Camera(640, 480);
+    frame_.depth_mm.assign(640 * 480, 0);
+  }
 
   SkeletonOptions options_;
   depth::DepthFrame frame_;
