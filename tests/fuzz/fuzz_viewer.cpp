@@ -24,16 +24,16 @@ viewer::ViewerOptions Options() {
 
 // A recording of two frames.
 struct Recording {
-  Recording() : desk(Options()) {
+  Recording() : shared(Options()) {
     for (int f = 0; f < 2; ++f) {
       recon::SkeletonFrame frame;
       frame.frame = f;
       frame.time_s = f / 30.0;
-      desk.store.Add(viewer::MomentOf(frame));
+      shared.store.Add(viewer::MakeMoment(frame));
     }
-    desk.store.Complete();
+    shared.store.Complete();
   }
-  viewer::Desk desk;
+  viewer::SharedState shared;
 };
 
 std::string Get(const std::string& target) {
@@ -71,9 +71,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) return 0;
   {
-    viewer::Server server(recording.desk, {});
+    viewer::Server server(recording.shared, {});
     const boost::asio::generic::stream_protocol protocol(AF_UNIX, 0);
-    server.Adopt(viewer::Server::Socket(server.context(), protocol, ends[0]));
+    server.StartSession(viewer::Server::Socket(server.context(), protocol, ends[0]));
     send(ends[1], data, size, MSG_DONTWAIT | MSG_NOSIGNAL);
     shutdown(ends[1], SHUT_WR);
     constexpr int kRounds = 20;  // a request and its answer take two or three

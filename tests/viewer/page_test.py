@@ -243,10 +243,10 @@ class RecordingPage(InBrowser):
                  "page.settings.inputs.find(i => i.dataset.setting === 'method').onchange()")
         page.wait("return page.state.generation === 1 && page.state.complete", "it was tracked again")
         self.assertEqual(page.run("return page.state.settings.method"), "holt")
-        page.run("page.player.tell({settings: {method: 'best'}}); page.player.tell({settings: {users: 5}});")
+        page.run("page.player.send({settings: {method: 'best'}}); page.player.send({settings: {users: 5}});")
         page.wait("return page.state.complete && page.state.settings.method === 'best' && page.state.settings.users === 5",
                   "two that were told at once")
-        page.run("page.player.tell({settings: {users: 6}})")
+        page.run("page.player.send({settings: {users: 6}})")
         page.wait("return page.state.complete && page.state.settings.users === 6", "and again")
 
     def test_pictures_of_the_documentation_are_drawn(self):
@@ -307,7 +307,7 @@ class CameraPage(InBrowser):
               }
             };
             page.player.connection.socket.close();""")
-        page.wait("return document.getElementById('say').textContent === 'no connection'", "the loss is said")
+        page.wait("return document.getElementById('status').textContent === 'no connection'", "the lost connection is shown")
         lost = page.run("return page.moment.number")
         page.wait(f"return page.moment.number > {lost}", "it goes on")
 
@@ -318,7 +318,7 @@ class BrowserWithoutLocalStorage(InBrowser):
         added = self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
         self.addCleanup(self.driver.execute_cdp_cmd, "Page.removeScriptToEvaluateOnNewDocument", added)
         self.open(self.serve("view", CLIP / "truth.jsonl"))
-        self.assertIn("person", self.page.run("return document.getElementById('say').textContent"))
+        self.assertIn("person", self.page.run("return document.getElementById('status').textContent"))
 
 
 class PhysicsPage(InBrowser):
@@ -354,7 +354,7 @@ class SkeletonFilePage(InBrowser):
         page = self.open(before)
         page.wait("return page.track.length > 0", "tracks")
         before.end()
-        page.wait("return document.getElementById('say').textContent === 'no connection'", "the loss is said")
+        page.wait("return document.getElementById('status').textContent === 'no connection'", "the lost connection is shown")
         self.serve("view", CLIP / "truth.jsonl", port=before.url.rstrip("/").split(":")[-1])
         page.wait("return window.page && document.title === 'truth.jsonl - ossa' && page.track.length > 0", "the file")
         page.console_errors()  # of the connection

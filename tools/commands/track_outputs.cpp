@@ -25,7 +25,7 @@ size_t TrackedJoints(const tracker::BodyFrame& bodies) {
 // Bounds of nearly all adults; for a child the message appears, too, and may be right.
 constexpr double kLeastStature_m = 1.35, kMostStature_m = 2.15;  // by hand
 
-bool IsUnlikely(const recon::Stature& stature) {
+bool IsUnlikelyStature(const recon::Stature& stature) {
   constexpr double kSigmas = 2.0;  // standard deviations, by hand: unlikely by chance
   const double sure_m = kSigmas * stature.sigma_m;
   return stature.stature_m + sure_m < kLeastStature_m ||
@@ -51,7 +51,7 @@ std::string ListLikelierCameras(double stature_m, const depth::Camera& camera) {
 SkeletonOutput::SkeletonOutput(const TrackOptions& options)
     : path_(options.out), recorder_(options) {
   if (path_.empty()) return;
-  SayLeftovers(path_);
+  PrintLeftovers(path_);
   writer_.emplace(path_, options.write.For(path_));
 }
 
@@ -74,7 +74,7 @@ void SkeletonOutput::Finish() {
     if (full_) throw DiskFull(*full_);
     writer_->Finish();
   } catch (const DiskFull& full) {
-    throw KeepWhatFits(full, *writer_);
+    throw FinishWithWhatFits(full, *writer_);
   }
 }
 
@@ -84,14 +84,14 @@ Pictures::Pictures(const TrackOptions& options) : one_(options.picture), folder_
 }
 
 void Pictures::Take(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
-  TakeForFolder(frame, bodies);
+  WriteToFolder(frame, bodies);
   if (one_.empty() || (has_best_ && TrackedJoints(bodies) < TrackedJoints(best_))) return;
   has_best_ = true;
   best_frame_ = frame;
   best_ = bodies;
 }
 
-void Pictures::TakeForFolder(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
+void Pictures::WriteToFolder(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies) {
   if (folder_.empty()) return;
   const auto name = fmt::format("{:06d}.png", bodies.index);
   try {
@@ -105,7 +105,7 @@ void Pictures::TakeForFolder(const depth::DepthFrame& frame, const tracker::Body
 
 void Pictures::Finish() const {
   if (!one_.empty() && has_best_) tracker::WritePicture(one_, best_frame_, best_);
-  if (full_) throw NamingWhatIsKept(*full_, in_folder_, in_folder_ + 1);
+  if (full_) throw MakeKeptError(*full_, in_folder_, in_folder_ + 1);
 }
 
 PersonKeeper::PersonKeeper(const TrackOptions& options) : path_(options.save_person) {
@@ -128,15 +128,15 @@ const std::pair<const int, PersonKeeper::Kept>* PersonKeeper::FindMostFitted() c
   return most == kept_.end() || most->second.fits == 0 ? nullptr : &*most;
 }
 
-void PersonKeeper::SayUnlikelyStature(const TrackOptions& options,
-                                      const depth::Camera& camera) const {
+void PersonKeeper::PrintUnlikelyStature(const TrackOptions& options,
+                                        const depth::Camera& camera) const {
   const std::string& preset = *options.source.guessed;
   const auto* most = FindMostFitted();
   if (options.quiet || !options.source.camera.empty() || preset.empty() || most == nullptr) return;
   const recon::Stature stature =
       recon::MeasureStature(most->second.shape, *options.tracker.models->surface);
-  if (!IsUnlikely(stature)) return;
-  Say(
+  if (!IsUnlikelyStature(stature)) return;
+  PrintError(
       fmt::format("ossa track: {}: person {} is {:.2f} m tall as a {} sees them (f {:.0f} px), "
                   "which nothing but the image size spoke for: unless they are, see whether "
                   "--camera{} and --depth-scale are right\n",

@@ -52,7 +52,7 @@ struct ViewOptions {
   bool once = false;
 };
 
-void ShowTheLast() { std::this_thread::sleep_for(viewer::PlaybackClock::LastFramesTime()); }
+void ShowLastFrame() { std::this_thread::sleep_for(viewer::PlaybackClock::LastFramesTime()); }
 
 bool IsSource(const std::string& what) {
   return IsDevice(what) || std::filesystem::is_directory(what) || depth::IsRecording(what);
@@ -72,7 +72,7 @@ recon::SkeletonSequence Read(const std::string& path, double fps) {
   if (fps > 0) reading.frame_s = 1.0 / fps;
   reading.progress = ReadingBar(false);
   recon::SkeletonSequence sequence = recon::ReadSkeletons(path, reading);
-  SayWarnings("view", sequence.warnings);
+  PrintWarnings("view", sequence.warnings);
   return sequence;
 }
 
@@ -108,7 +108,7 @@ tracker::TrackerOptions MakeOptions(const ViewOptions& options, const viewer::Se
 tracker::Tracker MakeTracker(const ViewOptions& options, const viewer::Settings& settings,
                              bool is_live) {
   tracker::TrackerOptions with = MakeOptions(options, settings);
-  SayWarnings("view", with.models->warnings);
+  PrintWarnings("view", with.models->warnings);
   with.keep_parts = !is_live;  // of a camera the page finds them, for who looks
   return tracker::Tracker(with);
 }
@@ -123,15 +123,15 @@ void ShowSkeletons(const ViewOptions& options) {
   with.keeps = true;
   with.expected_frames = static_cast<int64_t>(sequence.frames.size());
   viewer::Viewer viewer(with);
-  SayWhere(viewer);
+  PrintUrls(viewer);
   viewer::PlaybackClock clock;
   for (const recon::SkeletonFrame& frame : sequence.frames) {
     if (Interrupted()) return;
     if (options.once) std::this_thread::sleep_until(clock.DueAt(frame.time_s));
-    viewer.Show(viewer::MomentOf(frame));
+    viewer.Show(viewer::MakeMoment(frame));
   }
   viewer.Complete();
-  if (options.once) return ShowTheLast();
+  if (options.once) return ShowLastFrame();
   WaitUntilInterrupted();
 }
 
@@ -155,29 +155,30 @@ class PageTracker {
       with.forest = tracker::ModelSet::Load(options.files, settings_.method).forest;
     }
     viewer_ = std::make_unique<viewer::Viewer>(with);
-    SayWhere(*viewer_);
+    PrintUrls(*viewer_);
   }
 
   void Run() {
     while (!Interrupted()) {
-      if (TakesSettings() && !source_->is_live()) Rewind();
+      if (ApplySettings() && !source_->is_live()) Rewind();
       const depth::ReadResult read = source_->Read(milliseconds(100));
       if (read.status == depth::ReadStatus::kFrame) Show(read);
-      SayWhereUnplugged(read.status);
+      PrintUnplugged(read.status);
       if (read.status != depth::ReadStatus::kEnd) continue;
       progress_.reset();
       viewer_->Complete();
-      if (options_.once) return ShowTheLast();
+      if (options_.once) return ShowLastFrame();
       WaitForSettings();
     }
   }
 
  private:
   // Once each time that a camera goes: the page just stands still.
-  void SayWhereUnplugged(depth::ReadStatus status) {
+  void PrintUnplugged(depth::ReadStatus status) {
     const bool is_gone = status == depth::ReadStatus::kDisconnected;
     if (is_gone && !gone_) {
-      Say(fmt::format("ossa view: {}: the device is unplugged: waiting for it (Ctrl-C ends it)\n",
+      PrintError(
+          fmt::format("ossa view: {}: the device is unplugged: waiting for it (Ctrl-C ends it)\n",
                       OnOneLine(options_.source.name)));
     }
     gone_ = is_gone || (gone_ && status != depth::ReadStatus::kFrame);
@@ -191,7 +192,7 @@ class PageTracker {
     }
     tracker::BodyFrame bodies = tracker_.Track(read.frame);
     std::vector<viewer::Solid> solids = viewer::SolidsOf(bodies, options_.mechanics.follows());
-    viewer::Moment moment = viewer::MomentOf(read.frame, std::move(bodies));
+    viewer::Moment moment = viewer::MakeMoment(read.frame, std::move(bodies));
     moment.solids = std::move(solids);
     moment.dropped = dropped_;
     moment.is_upright = tracker_.quarter_turns() == 0;
@@ -208,7 +209,7 @@ class PageTracker {
     progress_->Update(static_cast<double>(++shown_), static_cast<double>(*frames));
   }
 
-  bool TakesSettings() {
+  bool ApplySettings() {
     const std::optional<viewer::Settings> asked =
         next_settings_ ? std::exchange(next_settings_, {}) : viewer_->TakeSettings();
     if (!asked) return false;
@@ -273,13 +274,13 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
 }
 
 // Skeletons of a file are shown as they are.
-void SayWhatIsNotTracked(const CLI::App& app, const std::string& file) {
+void PrintTrackingOptions(const CLI::App& app, const std::string& file) {
   for (const char* option : {"--model", "--database", "--prior", "--learned", "--refinement",
                              "--pose-network", "--method", "--smoothing", "--physics", "--scene",
                              "--mount", "--seated", "--near", "--users", "--fit", "--person"}) {
     if (app.count(option) == 0) continue;
-    Say(fmt::format("ossa view: {}: {} is for a source that is tracked: these are skeletons\n",
-                    file, option));
+    PrintError(fmt::format(
+        "ossa view: {}: {} is for a source that is tracked: these are skeletons\n", file, option));
   }
 }
 
@@ -320,7 +321,7 @@ int View(int argc, char** argv) {
         options.source, [&] { return MakeOptions(options, options.settings); }, false);
     PageTracker(options).Run();
   } else {
-    SayWhatIsNotTracked(app, options.source.name);
+    PrintTrackingOptions(app, options.source.name);
     ShowSkeletons(options);
   }
   return 0;

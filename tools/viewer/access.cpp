@@ -22,7 +22,7 @@ bool IsAddress(const std::string& name) {
          inet_pton(AF_INET6, name.c_str(), &address) == 1;
 }
 
-// Takes as long for any two of one length: time must not tell how much is right.
+// Constant time for a given length: the time must not reveal how much of a token is right.
 bool AreSame(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   int difference = 0;

@@ -16,7 +16,7 @@
 namespace ossa::viewer {
 namespace {
 
-// None where the text is none, or more than any recording has frames, so that sums do not overflow.
+// Empty for text that is no number, or a number beyond any recording, so that sums do not overflow.
 std::optional<int64_t> WholeNumber(const std::string& text) {
   constexpr int64_t kMost = int64_t{1} << 40;  // count, by hand
   int64_t value = 0;
@@ -32,23 +32,23 @@ int64_t Number(std::string_view target, std::string_view key, int64_t otherwise)
   throw InputError(std::string(key) + "=" + text + ": expected a whole number of 0 or more");
 }
 
-Answer Lines(std::string_view target, const Desk& desk) {
+Answer Lines(std::string_view target, const SharedState& shared) {
   constexpr int64_t kMostLines = 500;  // count: 1.5 MB of one person, by hand
   const int64_t from = Number(target, "from", 0);
   const int64_t count = std::min(Number(target, "count", kMostLines), kMostLines);
   const std::string layer = QueryValue(target, "layer");
   Answer answer{.type = "application/x-ndjson"};
   if (layer.empty() || layer == "final") {
-    answer.body = desk.FinalLines(from, count);
+    answer.body = shared.FinalLines(from, count);
   } else if (const auto overlay = WholeNumber(layer)) {
-    answer.body = desk.OverlayLines(static_cast<size_t>(*overlay), from, count);
+    answer.body = shared.OverlayLines(static_cast<size_t>(*overlay), from, count);
   } else {
     throw InputError("layer=" + layer + ": expected final, or the number of one of --over");
   }
   return answer;
 }
 
-// A folder of its own that goes with the object.
+// A temporary folder, deleted with the object.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -78,15 +78,15 @@ std::string ContentOf(const std::filesystem::path& path) {
 }
 
 void WriteSpan(const std::filesystem::path& path, const recon::SkeletonSequence& sequence,
-               const Desk& desk) {
-  recon::SkeletonWriter writer(path, {.body = desk.options.body});
-  for (const auto& [id, shape] : desk.store.shapes()) writer.SetShape(id, shape);
+               const SharedState& shared) {
+  recon::SkeletonWriter writer(path, {.body = shared.options.body});
+  for (const auto& [id, shape] : shared.store.shapes()) writer.SetShape(id, shape);
   for (const recon::SkeletonFrame& frame : sequence.frames) writer.Write(frame);
   writer.Finish();
 }
 
-// TRC and BVH hold one person a file: the first is given.
-Answer Export(std::string_view target, const Desk& desk) {
+// TRC and BVH hold one person per file: the first is exported.
+Answer Export(std::string_view target, const SharedState& shared) {
   constexpr int64_t kMostFrames = 36000;  // count: 20 minutes at 30 Hz, by hand
   const std::string format = QueryValue(target, "format");
   const std::vector<std::string> formats = {"jsonl", "csv", "trc", "bvh", "glb"};
@@ -95,23 +95,23 @@ Answer Export(std::string_view target, const Desk& desk) {
   }
   const int64_t from = Number(target, "from", 0), to = Number(target, "to", kMostFrames);
   const int64_t count = std::min(to - from + 1, kMostFrames);
-  std::istringstream lines(desk.FinalLines(from, count));
+  std::istringstream lines(shared.FinalLines(from, count));
   if (lines.str().empty()) {
     throw InputError("from, to: expected frames of a recording that are there, found none");
   }
   const recon::SkeletonSequence sequence = recon::ReadSkeletonJsonl(lines, "the span");
   const ScratchFolder folder;
   const std::string name = "skeletons." + format;
-  WriteSpan(folder.path() / name, sequence, desk);
+  WriteSpan(folder.path() / name, sequence, shared);
   return {.type = "application/octet-stream",
           .body = ContentOf(folder.path() / name),
           .file_name = name};
 }
 
-Answer Mesh(const Desk& desk) {
+Answer Mesh(const SharedState& shared) {
   Answer answer{.type = "application/octet-stream"};
-  if (!desk.options.body) return answer;
-  for (const recon::MeshTriangle& triangle : desk.options.body->triangles) {
+  if (!shared.options.body) return answer;
+  for (const recon::MeshTriangle& triangle : shared.options.body->triangles) {
     for (const uint32_t corner : triangle) {
       for (int shift = 0; shift < 32; shift += 8) {
         answer.body.push_back(static_cast<char>(corner >> shift));
@@ -143,13 +143,13 @@ std::string QueryValue(std::string_view target, std::string_view key) {
   return {};
 }
 
-Answer AnswerTo(std::string_view target, const Desk& desk) {
+Answer AnswerTo(std::string_view target, const SharedState& shared) {
   const std::string_view path = target.substr(0, target.find('?'));
   try {
-    if (path == "/state") return {.type = "application/json", .body = desk.StateJson()};
-    if (path == "/lines") return Lines(target, desk);
-    if (path == "/mesh") return Mesh(desk);
-    if (path == "/export") return Export(target, desk);
+    if (path == "/state") return {.type = "application/json", .body = shared.StateJson()};
+    if (path == "/lines") return Lines(target, shared);
+    if (path == "/mesh") return Mesh(shared);
+    if (path == "/export") return Export(target, shared);
     return File(path);
   } catch (const InputError& error) {
     return {.status = 400, .body = std::string(error.what()) + "\n"};

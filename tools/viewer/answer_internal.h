@@ -3,21 +3,21 @@
 #include <string>
 #include <string_view>
 
-#include "tools/viewer/desk_internal.h"
+#include "tools/viewer/shared_state_internal.h"
 
 namespace ossa::viewer {
 
-/// What a request is answered with.
+/// The answer to a request.
 struct Answer {
   unsigned status = 200;  // of HTTP
   std::string type = "text/plain; charset=utf-8";
   std::string body = {};
   bool gzipped = false;
-  std::string file_name = {};  // under which a browser saves it; empty: it shows it
+  std::string file_name = {};  // name under which a browser saves it; empty: the browser shows it
 };
 
-/// The value of `key` in the query of a request's target; empty where there is none. Nothing is
-/// decoded: all values that ossa reads are plain words and numbers.
+/// The value of `key` in the query of a request's target; empty without one. Not decoded: all
+/// values that ossa reads are plain words and numbers.
 std::string QueryValue(std::string_view target, std::string_view key);
 
 /// Answers GET `target`:
@@ -26,9 +26,9 @@ std::string QueryValue(std::string_view target, std::string_view key);
 ///   /lines?layer=L&from=N&count=M   skeletons, "final" or the number of an overlay: JSONL
 ///   /export?format=F&from=N&to=M    the final skeletons of frames N to M: jsonl, csv, trc, bvh or
 ///                                   glb
-///   /mesh                           the corners of fitted bodies' triangles: three uint32 each,
+///   /mesh                           vertex indices of the triangles of fitted bodies: uint32 x 3,
 ///                                   little-endian; nothing where no bodies are shown
-/// 404 for the rest, 400 with one line for what cannot be read.
-Answer AnswerTo(std::string_view target, const Desk& desk);
+/// 404 for other targets, 400 with one line for invalid values.
+Answer AnswerTo(std::string_view target, const SharedState& shared);
 
 }  // namespace ossa::viewer

@@ -26,9 +26,9 @@ class EventSession : public std::enable_shared_from_this<EventSession> {
   }
 
  private:
-  // What there is to say now is said; else what may change that is waited for.
+  // Sends the lines that are due; else waits for an update.
   void Next() {
-    const FrameStore& store = server_.desk().store;
+    const FrameStore& store = server_.shared().store;
     const FrameStore::Count count = store.count();
     if (count.generation != generation_) Rewind(count.generation);
     if (!store.keeps()) {
@@ -68,10 +68,10 @@ class EventSession : public std::enable_shared_from_this<EventSession> {
     });
   }
 
-  // A comment after a second of nothing tells whether anybody is there.
+  // A comment after a second without events detects closed connections.
   void Wait() {
     const Clock::time_point begun = Clock::now();
-    server_.WaitForBell([self = shared_from_this(), begun] {
+    server_.WaitForUpdate([self = shared_from_this(), begun] {
       if (Clock::now() - begun < std::chrono::milliseconds(500)) return self->Next();
       self->Write(": \n\n");
     });

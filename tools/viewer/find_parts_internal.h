@@ -7,9 +7,9 @@
 
 namespace ossa::viewer {
 
-/// The body part of each pixel of somebody, 0 elsewhere, as the forest alone sees it: what the
-/// tracker makes with TrackerOptions::keep_parts, without its knowledge of frames before. For
-/// frames in which people stand upright.
+/// The body part of each pixel of a person by the forest, 0 elsewhere: as
+/// TrackerOptions::keep_parts gives them, but without the state of earlier frames. For frames in
+/// which people stand upright.
 depth::Image<uint8_t> FindParts(const forest::ForestModel& model, const depth::DepthFrame& frame,
                                 const depth::Image<uint8_t>& users);
 

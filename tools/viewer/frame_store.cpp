@@ -85,7 +85,7 @@ std::shared_ptr<const PackedMoment> FrameStore::At(int64_t& number) const {
     if (packed_ || !newest_) return packed_;
     newest = newest_;
   }
-  // Not under the lock: the tracker would wait for it with its next frame.
+  // Outside the lock, which would block the tracker at its next frame.
   auto packed = std::make_shared<const PackedMoment>(PackWithParts(*newest));
   const std::lock_guard lock(mutex_);
   if (newest == newest_) packed_ = packed;

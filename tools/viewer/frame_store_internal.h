@@ -15,36 +15,36 @@
 
 namespace ossa::viewer {
 
-/// The moments that may be asked for: of a recording all until now, of a camera the newest. Used
-/// from any thread.
+/// The moments that can be requested: of a recording all so far, of a camera the newest. Used from
+/// any thread.
 class FrameStore {
  public:
-  /// `forest`: of a camera finds the parts of moments that are asked for and have none; `body`: the
-  /// skin of fitted bodies. Each may be null.
+  /// `forest`: finds the missing body parts of requested moments of a camera; `body`: the mesh of
+  /// fitted bodies. Each may be null.
   FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> forest,
              std::shared_ptr<const recon::BodyMesh> body);
 
   void Add(Moment moment);
-  /// Of a recording: nothing more comes.
+  /// The recording has ended.
   void Complete();
-  /// Begins anew, as with other settings.
+  /// Deletes all moments, for another run with changed settings.
   void Clear();
 
   struct Count {
-    int64_t frames = 0;      // that came since the beginning
-    int64_t generation = 0;  // how often it began anew
+    int64_t frames = 0;      // since the beginning
+    int64_t generation = 0;  // number of calls of Clear()
     bool complete = false;
   };
   Count count() const;
   bool keeps() const { return spools_ != nullptr; }
 
-  /// The moment of that number; of a camera the newest, whatever the number. Nothing where there is
-  /// none; `number` becomes that of what is returned.
+  /// The moment of that number; of a camera always the newest. Null where there is none; `number`
+  /// becomes that of the returned moment.
   std::shared_ptr<const PackedMoment> At(int64_t& number) const;
-  /// The final skeletons of a frame as a line of skeleton JSONL without its end; of a camera those
-  /// of the newest. Empty where there are none.
+  /// The final skeletons of a frame as a line of skeleton JSONL without a line end; of a camera
+  /// those of the newest frame. Empty without any.
   std::string Line(int64_t number) const;
-  /// What is known of people's shapes, by body id: the last fit's.
+  /// Shapes of people by body id, from their last fit.
   std::map<int, recon::ShapeVector> shapes() const;
   /// Seconds of a kept frame, on the recording's clock.
   double TimeOf(int64_t number) const;
@@ -70,7 +70,7 @@ class FrameStore {
   std::unique_ptr<Spools> spools_;
   std::shared_ptr<const Moment> newest_;
   std::map<int, recon::ShapeVector> shapes_;
-  mutable std::shared_ptr<const PackedMoment> packed_;  // of the newest, once it was asked for
+  mutable std::shared_ptr<const PackedMoment> packed_;  // of the newest, once requested
 };
 
 }  // namespace ossa::viewer

@@ -16,7 +16,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using Response = http::response<http::string_body>;
 
-// Nothing of the page comes from elsewhere, and nothing may.
+// The page loads nothing from other hosts, and may not.
 constexpr const char* kContentPolicy =
     "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' ws:; frame-ancestors "
     "'none'";
@@ -41,17 +41,17 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
  private:
   void Read() {
     constexpr uint32_t kLongestHeader = 8192;  // bytes, by convention of servers
-    constexpr uint64_t kLongestBody = 1024;    // bytes, by hand: nobody sends one
+    constexpr uint64_t kLongestBody = 1024;    // bytes, by hand: no request has a body
     parser_.emplace();
     parser_->header_limit(kLongestHeader);
     parser_->body_limit(kLongestBody);
     stream_.expires_after(kPatience);
     http::async_read(
         stream_, buffer_, *parser_,
-        [self = shared_from_this()](beast::error_code error, size_t) { self->WasRead(error); });
+        [self = shared_from_this()](beast::error_code error, size_t) { self->OnRead(error); });
   }
 
-  void WasRead(const beast::error_code& error) {
+  void OnRead(const beast::error_code& error) {
     if (error == http::error::body_limit) return Refuse(http::status::payload_too_large);
     if (error == http::error::header_limit) {
       return Refuse(http::status::request_header_fields_too_large);
@@ -77,7 +77,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
       return Upgrade(std::move(request));
     if (path == "/skeletons")
       return HandOver([&](Stream stream) { StartEvents(server_, std::move(stream), request); });
-    Say(AnswerTo(target, server_.desk()), request);
+    SendAnswer(AnswerTo(target, server_.shared()), request);
   }
 
   void Upgrade(Request request) {
@@ -102,7 +102,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     Send(std::move(response));
   }
 
-  void Say(Answer answer, const Request& request) {
+  void SendAnswer(Answer answer, const Request& request) {
     Response response(static_cast<http::status>(answer.status), request.version());
     response.keep_alive(request.keep_alive());
     response.set(http::field::content_type, answer.type);

@@ -54,7 +54,7 @@ std::string LayersJson(const Moment& moment) {
   return text + "}";
 }
 
-// Users and parts are labels of the depth image's pixels, or not there.
+// Users and parts have one label per pixel of the depth image, or are absent.
 bool HasLabels(const Moment& moment, const depth::Image<uint8_t>& parts) {
   const size_t pixels = moment.depth.depth_mm.size();
   return moment.users.data.size() == pixels && parts.data.size() == pixels;

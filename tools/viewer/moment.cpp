@@ -6,7 +6,7 @@
 
 namespace ossa::viewer {
 
-Moment MomentOf(depth::DepthFrame frame, tracker::BodyFrame bodies) {
+Moment MakeMoment(depth::DepthFrame frame, tracker::BodyFrame bodies) {
   Moment moment;
   moment.layers = {ToRecord(bodies, tracker::PostureKind::kFinal),
                    ToRecord(bodies, tracker::PostureKind::kRefined),
@@ -21,7 +21,7 @@ Moment MomentOf(depth::DepthFrame frame, tracker::BodyFrame bodies) {
   return moment;
 }
 
-Moment MomentOf(recon::SkeletonFrame skeletons) {
+Moment MakeMoment(recon::SkeletonFrame skeletons) {
   Moment moment;
   moment.depth.time_s = skeletons.time_s;
   moment.layers[0] = std::move(skeletons);

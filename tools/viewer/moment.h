@@ -31,7 +31,7 @@ struct Moment {
   std::array<recon::SkeletonFrame, kLayerNames.size()> layers;  // by Layer; camera space, metres
   std::vector<FittedBody> fits;
   std::vector<Solid> solids;  // of physics: characters and things
-  tracker::StageTimes ms;     // as the tracker measured them; all 0: nobody measured
+  tracker::StageTimes ms;     // as measured by the tracker; all 0: not measured
   int64_t dropped = 0;        // frames that the device lost since the start
   bool is_upright = true;     // people stand in the image, as the camera is mounted
   double latency_ms = 0.0;    // from the frame's arrival until it is shown
@@ -39,10 +39,10 @@ struct Moment {
   const recon::SkeletonFrame& skeletons() const { return layers[0]; }
 };
 
-/// What the tracker made of a frame.
-Moment MomentOf(depth::DepthFrame frame, tracker::BodyFrame bodies);
+/// A frame with the result of the tracker.
+Moment MakeMoment(depth::DepthFrame frame, tracker::BodyFrame bodies);
 
 /// A frame of a skeleton file: no pictures.
-Moment MomentOf(recon::SkeletonFrame skeletons);
+Moment MakeMoment(recon::SkeletonFrame skeletons);
 
 }  // namespace ossa::viewer

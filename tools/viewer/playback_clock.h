@@ -4,14 +4,13 @@
 
 namespace ossa::viewer {
 
-/// When the frames of a recording are due that is played at its own speed. Gaps of more than a
-/// second are skipped and times that run backwards begin anew, as those of a camera that was set up
-/// again or of two recordings in one file: nobody waits an hour for what was an hour later.
+/// Due times of the frames of a recording at its own speed. Gaps of more than a second are skipped,
+/// and playback restarts where times run backwards, as in a file of two recordings.
 class PlaybackClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Of a frame at `time_s` of the recording; of the same frame again the same.
+  /// Of a frame at `time_s` of the recording; the same for repeated calls.
   Clock::time_point DueAt(double time_s) {
     constexpr double kLongestGap_s = 1.0;  // by hand
     const bool follows = last_s_ && time_s >= *last_s_ && time_s - *last_s_ <= kLongestGap_s;
@@ -19,13 +18,13 @@ class PlaybackClock {
     last_s_ = time_s;
     return start_ + Seconds(time_s);
   }
-  /// The next frame is due when it comes: it was waited for.
+  /// The next frame is due as soon as it comes.
   void Restart() { last_s_.reset(); }
 
   static Clock::duration Seconds(double s) {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
   }
-  /// Of the last frame, which no other follows: as if one did; by convention.
+  /// How long the last frame is shown; by convention.
   static Clock::duration LastFramesTime() { return Seconds(1.0 / 30.0); }
 
  private:

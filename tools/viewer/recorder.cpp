@@ -26,28 +26,28 @@ Recorder::Recorder(std::optional<std::filesystem::path> folder) : folder_(std::m
 
 Recorder::~Recorder() {
   const std::lock_guard lock(mutex_);
-  GiveUpWhereItFails([this] { End(); });
+  AbortOnError([this] { End(); });
 }
 
-void Recorder::Ask(bool on) {
+void Recorder::Request(bool on) {
   const std::lock_guard lock(mutex_);
-  asked_ = on && possible();
+  requested_ = on && possible();
 }
 
-bool Recorder::asked() const {
+bool Recorder::requested() const {
   const std::lock_guard lock(mutex_);
-  return asked_;
+  return requested_;
 }
 
-std::string Recorder::said() const {
+std::string Recorder::status() const {
   const std::lock_guard lock(mutex_);
-  return said_;
+  return status_;
 }
 
 void Recorder::Begin(const depth::DepthFrame& frame) {
   const std::string name = NameOfNewFile(*folder_, std::time(nullptr));
   writing_ = std::make_unique<depth::OniRecorder>(*folder_ / name, frame.camera);
-  said_ = name;
+  status_ = name;
 }
 
 void Recorder::End() {
@@ -56,36 +56,36 @@ void Recorder::End() {
   writing_.reset();
 }
 
-void Recorder::Try(const depth::DepthFrame& frame) {
-  if (!asked_) return End();
+void Recorder::WriteFrame(const depth::DepthFrame& frame) {
+  if (!requested_) return End();
   if (!writing_) Begin(frame);
   writing_->Write(frame);
 }
 
-void Recorder::GiveUp(const std::string& why) {
-  const std::string name = said_;
-  said_ = why;
-  asked_ = false;
+void Recorder::Abort(const std::string& why) {
+  const std::string name = status_;
+  status_ = why;
+  requested_ = false;
   try {
     const int64_t kept = writing_ ? writing_->FinishWithWhatFits() : 0;
-    if (kept > 0) said_ += fmt::format("; the {} frames before are in {}", kept, name);
+    if (kept > 0) status_ += fmt::format("; the {} frames before are in {}", kept, name);
   } catch (const InputError& error) {
-    said_ += std::string("; nothing is kept: ") + error.what();
+    status_ += std::string("; nothing is kept: ") + error.what();
   }
   writing_.reset();
 }
 
-void Recorder::GiveUpWhereItFails(const std::function<void()>& step) {
+void Recorder::AbortOnError(const std::function<void()>& step) {
   try {
     step();
   } catch (const InputError& error) {
-    GiveUp(error.what());
+    Abort(error.what());
   }
 }
 
 void Recorder::Take(const depth::DepthFrame& frame) {
   const std::lock_guard lock(mutex_);
-  GiveUpWhereItFails([&] { Try(frame); });
+  AbortOnError([&] { WriteFrame(frame); });
 }
 
 }  // namespace ossa::viewer

@@ -15,8 +15,8 @@ using asio::ip::tcp;
 
 namespace {
 
-// Why nothing can be served at an address, and what would do instead.
-InputError Refusal(const tcp::endpoint& at, const boost::system::error_code& error) {
+// Why the server cannot listen at an address, and what is expected instead.
+InputError DescribeListenError(const tcp::endpoint& at, const boost::system::error_code& error) {
   const std::string address = at.address().to_string(), why = " (" + error.message() + ")";
   const std::string port = "port " + std::to_string(at.port()) + ": expected a ";
   if (error == asio::error::address_in_use) {
@@ -30,8 +30,8 @@ InputError Refusal(const tcp::endpoint& at, const boost::system::error_code& err
 
 }  // namespace
 
-Server::Server(Desk& desk, Access access) : desk_(desk), access_(std::move(access)) {
-  ToldOrSecond();
+Server::Server(SharedState& shared, Access access) : shared_(shared), access_(std::move(access)) {
+  NotifyEverySecond();
 }
 
 void Server::Listen(const tcp::endpoint& at) {
@@ -40,7 +40,7 @@ void Server::Listen(const tcp::endpoint& at) {
   if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
   if (!error) acceptor_.bind(at, error);
   if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-  if (error) throw Refusal(at, error);
+  if (error) throw DescribeListenError(at, error);
   Accept();
 }
 
@@ -55,13 +55,12 @@ void Server::Accept() {
     if (error) return AcceptLater();
     boost::system::error_code ignored;
     socket.set_option(tcp::no_delay(true), ignored);
-    Adopt(Socket(std::move(socket)));
+    StartSession(Socket(std::move(socket)));
     Accept();
   });
 }
 
-// Where a process may open no more files, whoever knocks waits outside, and asking again at once
-// would fail again at once.
+// Without free file descriptors new connections wait; accepting again at once would fail at once.
 void Server::AcceptLater() {
   constexpr std::chrono::milliseconds kPause{100};  // by hand
   retry_.expires_after(kPause);
@@ -70,26 +69,26 @@ void Server::AcceptLater() {
   });
 }
 
-void Server::Adopt(Socket socket) { StartHttp(*this, std::move(socket)); }
+void Server::StartSession(Socket socket) { StartHttp(*this, std::move(socket)); }
 
-void Server::Ring() {
-  asio::post(context_, [this] { CallWaiting(); });
+void Server::Notify() {
+  asio::post(context_, [this] { RunWaiting(); });
 }
 
-void Server::WaitForBell(std::function<void()> then) { waiting_.push_back(std::move(then)); }
+void Server::WaitForUpdate(std::function<void()> then) { waiting_.push_back(std::move(then)); }
 
-void Server::CallWaiting() {
+void Server::RunWaiting() {
   std::vector<std::function<void()>> now;
   now.swap(waiting_);
   for (const auto& then : now) then();
 }
 
-void Server::ToldOrSecond() {
+void Server::NotifyEverySecond() {
   second_.expires_after(std::chrono::seconds(1));
   second_.async_wait([this](const boost::system::error_code& error) {
     if (error) return;
-    CallWaiting();
-    ToldOrSecond();
+    RunWaiting();
+    NotifyEverySecond();
   });
 }
 

@@ -9,38 +9,38 @@
 #include <vector>
 
 #include "tools/viewer/access_internal.h"
-#include "tools/viewer/desk_internal.h"
+#include "tools/viewer/shared_state_internal.h"
 
 namespace ossa::viewer {
 
-/// One browser's line to us. All of them live on the server's one thread.
+/// The connection of one browser. All are used on the one thread of the server.
 class Connection {
  public:
   virtual ~Connection() = default;
   virtual void Close() = 0;
 };
 
-/// Accepts connections and answers them (Boost.Beast), all on the thread that runs context().
-/// What is slow waits for nobody and nobody for it; of too many connections the oldest that has not
-/// become a stream is closed.
+/// Accepts connections and answers them (Boost.Beast), all on the thread that runs context(),
+/// without blocking on any of them. Of too many connections the oldest that has not become a stream
+/// is closed.
 class Server {
  public:
   using Socket = boost::asio::generic::stream_protocol::socket;
 
-  Server(Desk& desk, Access access);
+  Server(SharedState& shared, Access access);
   /// Throws InputError where the port is taken.
   void Listen(const boost::asio::ip::tcp::endpoint& at);
-  /// 0 where it does not listen: what was adopted may be answered all the same.
+  /// 0 where it does not listen; sessions started by StartSession() are answered all the same.
   int port() const;
   boost::asio::io_context& context() { return context_; }
-  /// Speaks HTTP over a socket that is connected.
-  void Adopt(Socket socket);
-  /// From any thread: something is new.
-  void Ring();
-  /// Runs once something is new, or a second has passed. On the server's thread.
-  void WaitForBell(std::function<void()> then);
+  /// Serves HTTP over a connected socket.
+  void StartSession(Socket socket);
+  /// Wakes connections that wait for an update. From any thread.
+  void Notify();
+  /// Calls `then` after the next Notify(), or after a second, on the server's thread.
+  void WaitForUpdate(std::function<void()> then);
 
-  Desk& desk() { return desk_; }
+  SharedState& shared() { return shared_; }
   const Access& access() const { return access_; }
   /// Counts the connection among those that may be closed for new ones.
   void Register(const std::shared_ptr<Connection>& connection);
@@ -49,10 +49,10 @@ class Server {
  private:
   void Accept();
   void AcceptLater();
-  void ToldOrSecond();
-  void CallWaiting();
+  void NotifyEverySecond();
+  void RunWaiting();
 
-  Desk& desk_;
+  SharedState& shared_;
   const Access access_;
   std::list<std::weak_ptr<Connection>> connections_;  // oldest first
   boost::asio::io_context context_{1};                // ends before what its handlers use

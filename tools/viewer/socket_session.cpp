@@ -11,8 +11,8 @@
 
 #include "depth/base/error.h"
 #include "tools/viewer/message_internal.h"
+#include "tools/viewer/page_request_internal.h"
 #include "tools/viewer/session_internal.h"
-#include "tools/viewer/wish_internal.h"
 
 namespace ossa::viewer {
 namespace {
@@ -22,7 +22,7 @@ namespace websocket = beast::websocket;
 using Clock = std::chrono::steady_clock;
 
 websocket::stream_base::timeout Timeouts() {
-  constexpr std::chrono::seconds kSilence{30};  // pages ask every two seconds; by hand
+  constexpr std::chrono::seconds kSilence{30};  // pages send a request every two seconds; by hand
   websocket::stream_base::timeout timeout{};
   timeout.handshake_timeout = kPatience;
   timeout.idle_timeout = kSilence;
@@ -30,13 +30,12 @@ websocket::stream_base::timeout Timeouts() {
   return timeout;
 }
 
-// When a camera's next picture may go to one page: as often as a Kinect has one, and a little
-// oftener, so that none of its frames is missed. What is tracked faster than that would be packed
-// and sent for nobody's eyes.
+// When a page may get the next picture of a camera: slightly more often than a Kinect delivers one,
+// so that none is missed. A faster rate would cost time without being visible.
 class Pace {
  public:
   Clock::time_point next() const { return next_; }
-  // A picture that comes late may be followed sooner.
+  // After a late picture the next one may come sooner.
   void Take(Clock::time_point now) { next_ = std::max(next_, now - kPeriod) + kPeriod; }
 
  private:
@@ -45,7 +44,7 @@ class Pace {
   Clock::time_point next_;
 };
 
-// A page asks, is answered, and asks again: who is slow gets fewer, and nothing waits in store.
+// One request, one answer at a time: a slow page gets fewer frames, and nothing is queued.
 class SocketSession : public std::enable_shared_from_this<SocketSession> {
  public:
   SocketSession(Server& server, Stream stream, Request request)
@@ -55,9 +54,9 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
         timer_(server.context()) {}
 
   void Start() {
-    constexpr size_t kLongestWish = 4096;  // bytes, by hand: ten times what a page says
+    constexpr size_t kLongestRequest = 4096;  // bytes, by hand: ten times the usual
     socket_.set_option(Timeouts());
-    socket_.read_message_max(kLongestWish);
+    socket_.read_message_max(kLongestRequest);
     socket_.auto_fragment(false);
     socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
       if (!error) self->Read();
@@ -73,43 +72,44 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   }
 
   void Handle(const std::string& text) {
-    Desk& desk = server_.desk();
+    SharedState& shared = server_.shared();
     try {
-      const Wish wish = ReadWish(text, desk);
-      if (wish.settings) desk.ChangeSettings(*wish.settings);
-      if (wish.record) desk.recorder.Ask(*wish.record);
-      if (wish.frame) return SayFrame(*wish.frame, wish.step);
-      if (wish.after) return SayNewer(*wish.after, wish.step, Clock::now());
-      SayState();
+      const PageRequest page_request = ParsePageRequest(text, shared);
+      if (page_request.settings) shared.ChangeSettings(*page_request.settings);
+      if (page_request.record) shared.recorder.Request(*page_request.record);
+      if (page_request.frame) return SendFrame(*page_request.frame, page_request.step);
+      if (page_request.after)
+        return SendNewerFrame(*page_request.after, page_request.step, Clock::now());
+      SendState();
     } catch (const InputError& error) {
       const nlohmann::json json = {{"error", error.what()}};
       Write(false, json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     }
   }
 
-  void SayState() { Write(false, server_.desk().StateJson()); }
+  void SendState() { Write(false, server_.shared().StateJson()); }
 
-  void SayFrame(int64_t number, int step) {
-    packed_ = server_.desk().store.At(number);
-    if (!packed_) return SayState();
+  void SendFrame(int64_t number, int step) {
+    packed_ = server_.shared().store.At(number);
+    if (!packed_) return SendState();
     thinned_ = step > 1 ? ThinPictures(*packed_, step) : std::string();
-    Write(true, HeadOf(*packed_, number, step, server_.desk().StateJson()),
+    Write(true, HeadOf(*packed_, number, step, server_.shared().StateJson()),
           step > 1 ? thinned_ : packed_->pictures, packed_->meshes);
   }
 
-  void SayNewer(int64_t than, int step, Clock::time_point asked) {
+  void SendNewerFrame(int64_t than, int step, Clock::time_point requested) {
     const auto now = Clock::now();
-    const auto again = [self = shared_from_this(), than, step, asked] {
-      self->SayNewer(than, step, asked);
+    const auto again = [self = shared_from_this(), than, step, requested] {
+      self->SendNewerFrame(than, step, requested);
     };
-    const int64_t newest = server_.desk().store.count().frames - 1;
+    const int64_t newest = server_.shared().store.count().frames - 1;
     if (newest < 0 || newest == than) {
-      if (now - asked > std::chrono::seconds(1)) return SayState();
-      return server_.WaitForBell(again);
+      if (now - requested > std::chrono::seconds(1)) return SendState();
+      return server_.WaitForUpdate(again);
     }
     if (now < pace_.next()) return WaitUntil(pace_.next(), again);
     pace_.Take(now);
-    SayFrame(newest, step);
+    SendFrame(newest, step);
   }
 
   template <typename Then>
@@ -120,7 +120,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
     });
   }
 
-  // Pictures and meshes go from where they are, which several pages share.
+  // Pictures and meshes are sent without a copy, shared by several pages.
   void Write(bool binary, std::string head, std::string_view pictures = {},
              std::string_view meshes = {}) {
     head_ = std::move(head);
@@ -139,7 +139,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   beast::flat_buffer buffer_;
   boost::asio::steady_timer timer_;
   Pace pace_;
-  std::shared_ptr<const PackedMoment> packed_;  // what is sent of, until it is
+  std::shared_ptr<const PackedMoment> packed_;  // kept until it is sent
   std::string head_, thinned_;
 };
 

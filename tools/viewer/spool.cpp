@@ -37,7 +37,7 @@ std::string Decompress(const std::string& packed) {
 
 Spool::Spool() : file_(open(Folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600)) {
   if (file_ >= 0) return;
-  std::string name = Folder() + "/ossa-view-XXXXXX";  // where the disk knows no nameless files
+  std::string name = Folder() + "/ossa-view-XXXXXX";  // where the file system has no unnamed files
   file_ = mkstemp(name.data());
   if (file_ < 0) throw InputError(Folder() + ": expected a folder for temporary files (TMPDIR)");
   unlink(name.c_str());

@@ -7,8 +7,8 @@
 
 namespace ossa::viewer {
 
-/// Records of bytes on disk, compressed, read again in any order. The file has no name and goes
-/// with the object; memory takes 16 bytes a record. One thread at a time.
+/// Compressed records of bytes on disk, read in any order. The file has no name and is deleted with
+/// the object; memory takes 16 bytes per record. One thread at a time.
 class Spool {
  public:
   /// In the folder for temporary files (TMPDIR). Throws InputError where none can be made there.

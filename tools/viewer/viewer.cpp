@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "depth/base/error.h"
-#include "tools/viewer/desk_internal.h"
 #include "tools/viewer/server_internal.h"
+#include "tools/viewer/shared_state_internal.h"
 
 namespace ossa::viewer {
 namespace {
@@ -33,7 +33,7 @@ std::string Url(const ip::address& address, int port, const std::string& token) 
          "/" + (token.empty() ? "" : "?token=" + token);
 }
 
-// Of this machine in its networks.
+// Addresses of this machine in its networks.
 std::vector<ip::address> AddressesInNetworks() {
   std::vector<ip::address> found;
   ifaddrs* first = nullptr;
@@ -56,8 +56,8 @@ std::vector<ip::address> AddressesInNetworks() {
 struct Viewer::Impl {
   explicit Impl(const ViewerOptions& options)
       : address(AddressOf(options)),
-        desk(options),
-        server(desk, {.loopback = address.is_loopback(), .token = options.token}) {
+        shared(options),
+        server(shared, {.loopback = address.is_loopback(), .token = options.token}) {
     server.Listen({address, static_cast<uint16_t>(options.port)});
     thread = std::thread([this] { Serve(); });
   }
@@ -66,7 +66,7 @@ struct Viewer::Impl {
     if (thread.joinable()) thread.join();
   }
 
-  // What cannot be answered, as when memory or the disk is full, costs its connection alone.
+  // A failure, such as a full disk, closes its own connection only.
   void Serve() {
     while (!server.context().stopped()) {
       try {
@@ -78,7 +78,7 @@ struct Viewer::Impl {
   }
 
   const ip::address address;
-  Desk desk;
+  SharedState shared;
   Server server;
   std::thread thread;
 };
@@ -96,31 +96,31 @@ std::vector<std::string> Viewer::urls() const {
   }
   std::vector<std::string> urls;
   for (const ip::address& address : addresses) {
-    urls.push_back(Url(address, port(), impl_->desk.options.token));
+    urls.push_back(Url(address, port(), impl_->shared.options.token));
   }
   return urls;
 }
 
 void Viewer::Show(Moment moment) {
-  impl_->desk.recorder.Take(moment.depth);
-  impl_->desk.store.Add(std::move(moment));
-  impl_->server.Ring();
+  impl_->shared.recorder.Take(moment.depth);
+  impl_->shared.store.Add(std::move(moment));
+  impl_->server.Notify();
 }
 
 void Viewer::Complete() {
-  impl_->desk.store.Complete();
-  impl_->server.Ring();
+  impl_->shared.store.Complete();
+  impl_->server.Notify();
 }
 
 void Viewer::Clear() {
-  impl_->desk.store.Clear();
-  impl_->server.Ring();
+  impl_->shared.store.Clear();
+  impl_->server.Notify();
 }
 
-std::optional<Settings> Viewer::TakeSettings() { return impl_->desk.TakeSettings(); }
+std::optional<Settings> Viewer::TakeSettings() { return impl_->shared.TakeSettings(); }
 
 void Viewer::Refuse(const Settings& still, const std::string& why) {
-  impl_->desk.Refuse(still, why);
+  impl_->shared.Refuse(still, why);
 }
 
 std::string RandomToken() {

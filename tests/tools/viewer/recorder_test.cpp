@@ -25,12 +25,12 @@ class UnrecordableFrame : public testing::TestWithParam<depth::DepthFrame> {};
 TEST_P(UnrecordableFrame, KeepsTheFramesBeforeIt) {
   const TemporaryFolder folder;
   Recorder recorder(folder.path());
-  recorder.Ask(true);
+  recorder.Request(true);
   for (int f = 0; f < 5; ++f) recorder.Take(ExampleFrame(f));
   recorder.Take(GetParam());
-  EXPECT_FALSE(recorder.asked());
-  EXPECT_NE(recorder.said().find("the 5 frames before are in ossa-"), std::string::npos)
-      << recorder.said();
+  EXPECT_FALSE(recorder.requested());
+  EXPECT_NE(recorder.status().find("the 5 frames before are in ossa-"), std::string::npos)
+      << recorder.status();
   const auto source = depth::OpenSource(RecordingIn(folder));
   EXPECT_EQ(source->frame_count(), 5);
   EXPECT_EQ(source->Read(std::chrono::seconds(5)).frame.depth_mm, ExampleFrame(0).depth_mm);
@@ -50,12 +50,12 @@ TEST(Recorder, ReportsAFileThatCannotBeFinished) {
   const auto gone = folder.path() / "gone";
   std::filesystem::create_directory(gone);
   Recorder recorder(gone);
-  recorder.Ask(true);
+  recorder.Request(true);
   recorder.Take(ExampleFrame(0));
   std::filesystem::remove_all(gone);
-  recorder.Ask(false);
+  recorder.Request(false);
   EXPECT_NO_THROW(recorder.Take(ExampleFrame(1)));
-  EXPECT_NE(recorder.said().find("nothing is kept"), std::string::npos) << recorder.said();
+  EXPECT_NE(recorder.status().find("nothing is kept"), std::string::npos) << recorder.status();
 }
 
 TEST(Recorder, NamesTwoRecordingsOfTheSameSecondDifferently) {

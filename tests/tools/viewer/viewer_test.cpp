@@ -179,11 +179,11 @@ TEST(Viewer, ReportsInvalidRequests) {
   options.methods = {"best", "holt"};
   Viewer viewer(options);
   PageClient page(viewer.port());
-  for (const char* wish :
+  for (const char* page_request :
        {"", "[]", "{", R"({"frame":-1})", R"({"frame":1.5})", R"({"after":"x"})", R"({"step":9})",
         R"({"settings":{"method":"magic"}})", R"({"settings":{"users":0}})", R"({"settings":[]})",
         R"({"record":1})"}) {
-    EXPECT_TRUE(nlohmann::json::parse(page.Ask(wish)).contains("error")) << wish;
+    EXPECT_TRUE(nlohmann::json::parse(page.Ask(page_request)).contains("error")) << page_request;
   }
   EXPECT_FALSE(viewer.TakeSettings());
 }

@@ -1,4 +1,4 @@
-// The strip of who is there, and the curves: plain 2D canvases.
+// The strip of people over time, and the curves: plain 2D canvases.
 import {OVERLAYS, personColour} from './colours.js';
 
 export function prepare(canvas) {
@@ -37,7 +37,7 @@ export function drawStrip(canvas, track, total, index, span) {
   context.fillRect(x(index + 0.5) - 1, 0, 2, height);
 }
 
-// An hour's values are more than a function takes as arguments.
+// A loop: Math.min(...values) fails for the number of values of an hour.
 function range(lines) {
   let low = Infinity, high = -Infinity;
   for (const value of lines.flat()) {
@@ -68,7 +68,7 @@ export function drawCurves(canvas, lines, colours, total, index, unit) {
   context.fillRect(0, 0, width, height);
   const bounds = range(lines);
   context.fillStyle = colour('dim');
-  if (!bounds) { context.fillText('nothing of this here', 8, 18); return; }
+  if (!bounds) { context.fillText('no values', 8, 18); return; }
   const x = i => (i + 0.5) / Math.max(1, total) * width;
   const y = value => height - (value - bounds[0]) / (bounds[1] - bounds[0]) * height;
   context.strokeStyle = colour('line');

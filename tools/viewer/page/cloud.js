@@ -1,5 +1,5 @@
-// The depth image as points in space. The images go to the graphics card as they came: the places and
-// colours of the points are computed there.
+// The depth image as points in space. Positions and colours of the points are computed on the graphics card, from the
+// images as they were received.
 import * as THREE from '/three/build/three.module.js';
 import {FAR_MM, NEAR_MM, PALETTE} from './colours.js';
 
@@ -59,7 +59,7 @@ export class Cloud {
   resize(width, height) {
     this.points.geometry.dispose();
     this.points.geometry = new THREE.BufferGeometry();
-    // three.js counts the points by `position`; their places come from the depth image.
+    // three.js counts the points by `position`; their positions come from the depth image.
     this.points.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(width * height * 3), 3));
     this.points.geometry.setAttribute('pixel', new THREE.BufferAttribute(pixelsOf(width, height), 2));
     this.uniforms.size.value.set(width, height);

@@ -1,4 +1,4 @@
-// The WebSocket: one question, one answer, in turn. A slow browser asks less often and so gets fewer frames.
+// The WebSocket: one request, one answer, in turn. A slow browser requests less often and so gets fewer frames.
 
 // A binary message: length of the header, header (JSON), depth (16 bit), persons and parts (8 bit each),
 // corners of fitted bodies (16 bit, half millimetres).
@@ -41,29 +41,29 @@ export class Connection {
   open() {
     this.socket = new WebSocket(`ws://${location.host}/socket`);
     this.socket.binaryType = 'arraybuffer';
-    // Also where it never opens: whoever waits for it would not ask the next one.
-    this.decided = new Promise(resolve => { this.socket.onopen = this.decide = resolve; });
+    // Also resolved when it never opens: requests that wait for it must end.
+    this.opened = new Promise(resolve => { this.socket.onopen = this.resolveOpened = resolve; });
     this.socket.onmessage = event => this.waiting.shift()?.(readAnswer(event.data));
-    this.socket.onclose = () => this.lose();
+    this.socket.onclose = () => this.handleClose();
   }
 
-  lose() {
-    this.decide();
+  handleClose() {
+    this.resolveOpened();
     this.waiting.splice(0).forEach(answer => answer({lost: true}));
     setTimeout(() => this.open(), 1000);
   }
 
   // {moment, state}, {state}, {error} or {lost: true}.
-  async ask(wish) {
-    await this.decided;
-    if (this.socket.readyState !== WebSocket.OPEN) return this.later();
+  async request(message) {
+    await this.opened;
+    if (this.socket.readyState !== WebSocket.OPEN) return this.answerLost();
     return new Promise(resolve => {
       this.waiting.push(resolve);
-      this.socket.send(JSON.stringify(wish));
+      this.socket.send(JSON.stringify(message));
     });
   }
 
-  later() {
+  answerLost() {
     return new Promise(resolve => setTimeout(() => resolve({lost: true}), 500));
   }
 }

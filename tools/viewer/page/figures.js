@@ -1,4 +1,4 @@
-// Skeletons in 3D: a ball a joint, a rod a bone. What is sure is large and bright.
+// Skeletons in 3D: a ball per joint, a rod per bone; reliable ones are large and bright.
 import * as THREE from '/three/build/three.module.js';
 import {BONES, JOINTS} from './skeleton.js';
 
@@ -19,7 +19,7 @@ function material(colour, opacity) {
 const opacityOf = joint => OPACITY[joint.state] ?? 1;
 
 export class Figures {
-  // ball_m and rod_m: radii where the joint is wholly reliable.
+  // ball_m and rod_m: radii at reliability 1.
   constructor(ball_m, rod_m) {
     this.group = new THREE.Group();
     this.sizes = {ball_m, rod_m};
@@ -68,7 +68,7 @@ export class Figures {
 const TRAILING = ['Head', 'HandLeft', 'HandRight', 'FootLeft', 'FootRight'];
 const TRAIL_FRAMES = 45;  // a second and a half at 30 a second
 
-// The way that heads, hands and feet have come.
+// Recent paths of heads, hands and feet.
 export class Trails {
   constructor() {
     this.group = new THREE.Group();

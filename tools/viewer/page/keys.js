@@ -1,4 +1,4 @@
-// The keyboard: one table for what keys do and for what `?` shows.
+// The keyboard: one table for the actions of keys and for the help at `?`.
 import {$} from './panels.js';
 
 function showKeys(table) {
@@ -17,8 +17,8 @@ function showKeys(table) {
   $('keys').showModal();
 }
 
-// Whether what has the focus wants the key itself. Space is of a button that Tab led to: without a mouse there is
-// no other way to press it. Of one that was clicked it is not, or nobody could play after a click.
+// Whether the focused element handles the key itself. A button focused by Tab handles space, the only way to press
+// it without a mouse; one focused by a click does not, so that space still plays and pauses.
 function isOfFocused(event, byTab) {
   const {tagName, type} = event.target;
   if (tagName === 'SELECT' || (tagName === 'INPUT' && type !== 'checkbox')) return true;

@@ -1,4 +1,4 @@
-// The page: what comes from ossa is shown in 3D, as pictures and over time.
+// The page: shows frames and skeletons from ossa in 3D, as pictures and over time.
 import {drawStrip, overlayColour} from './charts.js';
 import {LAYERS, personColour} from './colours.js';
 import {Connection} from './connection.js';
@@ -13,12 +13,12 @@ import {Track} from './track.js';
 
 const VIEWS = ['orbit', 'camera', 'top', 'side', 'follow'];
 
-// A browser that is to keep nothing of a page throws at either.
+// Both throw in a browser that denies local storage.
 function keptTheme() {
   try { return localStorage.getItem('theme'); } catch { return null; }
 }
 function keepTheme(name) {
-  try { localStorage.setItem('theme', name); } catch { /* it is asked for again */ }
+  try { localStorage.setItem('theme', name); } catch { /* not kept */ }
 }
 
 class Page {
@@ -27,10 +27,10 @@ class Page {
     this.track = new Track('final');
     this.overlays = [];
     this.loader = new Loader();
-    this.player = new Player(new Connection(), moment => this.show(moment), state => this.learn(state));
-    const tell = wish => this.player.tell(wish);
-    this.live = new LivePanel(tell);
-    this.settings = new SettingsPanel(tell);
+    this.player = new Player(new Connection(), moment => this.show(moment), state => this.updateState(state));
+    const send = request => this.player.send(request);
+    this.live = new LivePanel(send);
+    this.settings = new SettingsPanel(send);
     this.curves = new CurvesPanel(() => this.drawCharts());
     this.worst = new WorstPanel(frame => this.jump(frame));
     this.connectLayers();
@@ -38,11 +38,11 @@ class Page {
     this.connectKeys();
     this.connectTheme();
     connectExport(this.scene, this.player, () => this.span());
-    this.look('orbit');
+    this.setView('orbit');
     $('near_far').textContent = RANGE_TEXT;
     window.addEventListener('resize', () => this.drawCharts());
     this.player.onLost = () => {
-      $('say').textContent = 'no connection';
+      $('status').textContent = 'no connection';
       this.announce('no connection');
     };
     this.player.run();
@@ -62,38 +62,38 @@ class Page {
     const time_s = moment.layers.final.time_s;
     const over = this.overlays.map(overlay => [...overlay.at(time_s)?.bodies ?? []].map(([id, joints]) => ({id, joints})));
     this.scene.show(moment, this.track, this.index, over);
-    for (const [name, what] of [['mesh', moment.meshes], ['solids', moment.solids]]) this.offer(name, what.length > 0);
+    for (const [name, what] of [['mesh', moment.meshes], ['solids', moment.solids]]) this.revealLayer(name, what.length > 0);
     showPictures($('depth'), $('parts'), moment);
     $('pictures').hidden = !moment.depth;
     $('parts_figure').hidden = !moment.parts;
-    this.say();
+    this.showStatus();
     this.drawCharts();
     this.onShown?.(moment.number);
   }
 
-  // A layer that is not always there may be chosen from when it first is.
-  offer(name, isThere) {
+  // Shows the switch of an optional layer once it has content.
+  revealLayer(name, isThere) {
     if (isThere) document.querySelector(`[data-layer=${name}]`).parentElement.hidden = false;
   }
 
-  say() {
+  showStatus() {
     const {final} = this.moment.layers;
     const count = final.bodies.length;
     const people = `${count} ${count === 1 ? 'person' : 'people'}`;
-    $('say').textContent = `frame ${final.frame}, ${final.time_s.toFixed(2)} s, ${people}`;
+    $('status').textContent = `frame ${final.frame}, ${final.time_s.toFixed(2)} s, ${people}`;
     this.announce(people);
     const where = `frame ${this.index} of ${this.total} · ${final.time_s.toFixed(2)} s`;
     $('where').textContent = where;
-    if (!this.player.playing) this.tellStrip(where);
+    if (!this.player.playing) this.labelStrip(where);
     this.drawLegend();
   }
 
-  // To screen readers, which would read out every frame's number.
+  // For screen readers: changes only, as they would read out every frame's number.
   announce(text) {
     if ($('spoken').textContent !== text) $('spoken').textContent = text;
   }
 
-  tellStrip(where) {
+  labelStrip(where) {
     const values = {valuemin: 0, valuemax: Math.max(0, this.total - 1), valuenow: this.index, valuetext: where};
     for (const [name, value] of Object.entries(values)) $('strip').setAttribute(`aria-${name}`, value);
   }
@@ -116,15 +116,15 @@ class Page {
     if ($('curves_panel').open) this.curves.draw(this.track, this.overlays, this.total, this.index);
   }
 
-  learn(state) {
-    // A page that was left open, and another run of ossa at its address: nothing that it has is of that one.
+  updateState(state) {
+    // Another run of ossa at the same address: the content of an open page is outdated.
     if (this.state && state.begun_ms !== this.state.begun_ms) return location.reload();
     const isNew = state.generation !== this.state?.generation;
     this.state = state;
     if (isNew) this.begin();
     $('player').hidden = $('worst_panel').hidden = $('export_panel').hidden = !state.kept;
-    this.live.learn(state);
-    this.settings.learn(state);
+    this.live.update(state);
+    this.settings.update(state);
     if (state.kept) this.loadTracks();
   }
 
@@ -179,12 +179,12 @@ class Page {
       this.scene.cloud.mode = Number($('colour').value);
       this.scene.draw();
     };
-    for (const button of document.querySelectorAll('[data-view]')) button.onclick = () => this.look(button.dataset.view);
+    for (const button of document.querySelectorAll('[data-view]')) button.onclick = () => this.setView(button.dataset.view);
   }
 
-  look(view) {
+  setView(view) {
     this.scene.person = Number($('person').value);
-    this.scene.look(view);
+    this.scene.setView(view);
     for (const button of document.querySelectorAll('[data-view]')) {
       button.ariaPressed = button.dataset.view === view;
       button.classList.toggle('on', button.dataset.view === view);
@@ -234,7 +234,7 @@ class Page {
       [['.', 'ArrowRight'], 'one frame on', () => this.player.stepBy(1)],
       [['Home'], 'first frame', () => this.jump(0)],
       [['End'], 'last frame', () => this.jump(this.total - 1)],
-      [['1', '2', '3', '4', '5'], 'orbit, camera, top, side, follow', key => this.look(VIEWS[Number(key) - 1])],
+      [['1', '2', '3', '4', '5'], 'orbit, camera, top, side, follow', key => this.setView(VIEWS[Number(key) - 1])],
       [['p'], 'points', () => this.toggle('[data-layer=cloud]')],
       [['c'], 'colour: depth, person, part', () => this.nextColour()],
       [['s', 'r', 'w'], 'skeleton: final, refined, raw', key => this.toggle(`[data-layer=${{s: 'final', r: 'refined', w: 'raw'}[key]}]`)],
@@ -274,6 +274,6 @@ class Page {
 try {
   window.page = new Page();  // for the tests, and for the console
 } catch (error) {
-  $('say').textContent = `this browser shows no 3D (WebGL): ${error.message}`;
+  $('status').textContent = `this browser shows no 3D (WebGL): ${error.message}`;
   throw error;
 }

@@ -2,7 +2,7 @@
 import * as THREE from '/three/build/three.module.js';
 import {personColour} from './colours.js';
 
-// Corner numbers of the triangles, the same of everybody; empty where ossa shows no bodies.
+// Vertex indices of the triangles, the same for all bodies; empty where ossa shows no bodies.
 async function loadTriangles() {
   const answer = await fetch('/mesh');
   return new Uint32Array(await answer.arrayBuffer());

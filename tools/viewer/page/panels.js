@@ -31,9 +31,9 @@ function stageRow(name, ms, whole) {
 }
 
 export class LivePanel {
-  constructor(tell) {
+  constructor(send) {
     this.arrivals = [];
-    $('record').onclick = () => tell({record: !this.recording});
+    $('record').onclick = () => send({record: !this.recording});
   }
 
   show(moment) {
@@ -46,7 +46,7 @@ export class LivePanel {
       `${fps.toFixed(0)} frames/s here, ${moment.dropped} dropped, latency ${moment.latency_ms.toFixed(0)} ms`;
   }
 
-  learn({recording}) {
+  update({recording}) {
     this.recording = recording.on;
     $('record').hidden = !recording.possible;
     $('record').classList.toggle('on', recording.on);
@@ -56,10 +56,10 @@ export class LivePanel {
 }
 
 export class SettingsPanel {
-  constructor(tell) {
+  constructor(send) {
     this.inputs = [...document.querySelectorAll('[data-setting]')];
     for (const input of this.inputs) {
-      input.onchange = () => tell({settings: {[input.dataset.setting]: this.valueOf(input)}});
+      input.onchange = () => send({settings: {[input.dataset.setting]: this.valueOf(input)}});
     }
   }
 
@@ -68,7 +68,7 @@ export class SettingsPanel {
     return input.type === 'number' ? Number(input.value) : input.value;
   }
 
-  learn({settings, methods, smoothings, refused}) {
+  update({settings, methods, smoothings, refused}) {
     $('settings').hidden = !settings;
     $('refused').textContent = refused;
     if (!settings) return;
@@ -99,7 +99,7 @@ export class CurvesPanel {
     $('value').textContent = Number.isFinite(value) ? `${value.toFixed(3)} ${quantity.unit} at frame ${index}` : ' ';
   }
 
-  // Computed anew only where something else is asked or there is more: it looks at every frame.
+  // Cached until the selection or the number of frames changes: it visits every frame.
   lines(track, overlays, quantity, id, joint) {
     const key = JSON.stringify([$('quantity').value, id, joint, track.frames.at(-1)?.time_s, track.length, overlays.map(overlay => overlay.length)]);
     if (key !== this.key || track !== this.track) {
@@ -110,7 +110,7 @@ export class CurvesPanel {
     return this.kept;
   }
 
-  // Of the overlay's first person, at the times of the track.
+  // The curve of the overlay's first person at the times of the track.
   overlayLine(track, overlay, quantity, joint) {
     const id = overlay.people()[0];
     return track.frames.map(frame => {
@@ -126,7 +126,7 @@ export class WorstPanel {
     $('measure').onchange = () => { this.key = null; };
   }
 
-  // Anew only when there is more to judge: it looks at every frame.
+  // Cached until enough frames are added: it visits every frame.
   show(track, overlays, complete) {
     const names = Object.keys(MEASURES).filter(name => overlays.length || !MEASURES[name].needsOverlay);
     fillSelect($('measure'), names, names[0]);

@@ -1,12 +1,12 @@
-// What frame is asked for next: of a camera the newest, of a recording that of the clock or of the hand.
-const IDLE_MS = 400;  // between looks at a state that does not change
+// Which frame is requested next: of a camera the newest, of a recording that of the clock or of the user.
+const IDLE_MS = 400;  // between requests for a state that does not change
 
 const wait = ms => new Promise(resolve => setTimeout(resolve, ms));
 
 export class Player {
-  // show(moment), learn(state): told of what comes.
-  constructor(connection, show, learn) {
-    Object.assign(this, {connection, show, learn});
+  // show(moment), updateState(state): called for each answer.
+  constructor(connection, show, updateState) {
+    Object.assign(this, {connection, show, updateState});
     this.index = 0;
     this.shown = -1;
     this.playing = true;
@@ -14,19 +14,19 @@ export class Player {
     this.loop = true;
     this.step = window.innerWidth < 800 ? 2 : 1;  // a phone need not load every pixel
     this.times = [];
-    this.wishes = [];
+    this.requests = [];
     this.frames = 0;
     this.start();
   }
 
-  // It may end by itself: at the last frame, or where one frame is wanted.
+  // Playing also ends at the last frame, and when a single frame is shown.
   get playing() { return this.isPlaying; }
   set playing(playing) {
     this.isPlaying = playing;
     this.onPlaying?.();
   }
 
-  // The clock begins at the frame that is shown.
+  // Starts the clock at the current frame.
   start() {
     this.started = {wall: performance.now(), time_s: this.times[this.index] ?? 0};
   }
@@ -63,7 +63,7 @@ export class Player {
     if (this.loop) this.seek(0); else this.play(false);
   }
 
-  next() {
+  nextRequest() {
     if (!this.kept) return {after: this.shown, step: this.step};
     this.advance();
     return this.index === this.shown && !this.stale ? {state: true} : {frame: this.index, step: this.step};
@@ -87,27 +87,27 @@ export class Player {
       this.stale = true;
       this.seek(0);
     }
-    this.learn(state);
+    this.updateState(state);
   }
 
   async run() {
-    this.take(await this.connection.ask({state: true}));
+    this.take(await this.connection.request({state: true}));
     for (;;) {
-      const wish = this.wishes.shift() ?? this.next();
-      const answer = await this.connection.ask(wish);
+      const request = this.requests.shift() ?? this.nextRequest();
+      const answer = await this.connection.request(request);
       this.take(answer);
       if (answer.lost) { this.generation = null; this.onLost?.(); await wait(IDLE_MS); }
-      if (this.kept) await this.pause(wish);
+      if (this.kept) await this.pause(request);
     }
   }
 
-  // A moment without a new question: until the next frame is due, or something is asked.
-  pause(wish) {
-    if (wish.state && !this.playing) return Promise.race([wait(IDLE_MS), new Promise(resolve => { this.onChange = resolve; })]);
+  // Waits until the next frame is due, or until the user does something.
+  pause(request) {
+    if (request.state && !this.playing) return Promise.race([wait(IDLE_MS), new Promise(resolve => { this.onChange = resolve; })]);
     return new Promise(resolve => { if (document.hidden) setTimeout(resolve, 30); else requestAnimationFrame(resolve); });
   }
 
-  // Shows a frame; done once it is on the screen.
+  // Shows a frame; resolves once it is drawn.
   showFrame(index) {
     this.playing = false;
     this.stale = true;
@@ -115,9 +115,9 @@ export class Player {
     return new Promise(resolve => { this.onceShown = [index, resolve]; });
   }
 
-  // Settings or the record button, with the next question, which may be a second away: more than one may wait.
-  tell(wish) {
-    this.wishes.push(wish);
+  // Queues settings or the record button; the current request may take up to a second.
+  send(request) {
+    this.requests.push(request);
     this.onChange?.();
   }
 }

@@ -10,7 +10,7 @@ export function makeFloor() {
   return grid;
 }
 
-// For what has a surface: from above, and some from the camera's side.
+// Light for surfaces: from above, and some from the camera's side.
 export function addLight(scene) {
   const sun = new THREE.DirectionalLight(0xffffff, 0.6);
   sun.position.set(-1, 2, -2);

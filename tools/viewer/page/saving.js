@@ -1,4 +1,4 @@
-// Export of a span, and pictures of what is seen.
+// Export of a span, and pictures of the 3D view.
 import {$} from './panels.js';
 
 export function download(url, name) {
@@ -16,7 +16,7 @@ const savePicture = (canvas, name) => canvas.toBlob(blob => {
 
 const PICTURES = 12;  // of a span in one PNG: four a row
 
-// The 3D view at moments spread over the span, in one picture.
+// The 3D view at evenly spaced frames of the span, in one picture.
 export async function savePictures(scene, player, [from, to]) {
   const count = Math.min(PICTURES, to - from + 1), columns = Math.min(4, count);
   const width = 480, height = Math.round(width * scene.canvas.height / scene.canvas.width);

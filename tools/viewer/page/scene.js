@@ -1,4 +1,4 @@
-// The 3D view: the world with the floor at y = 0, what is in it, and who looks at it.
+// The 3D view: the world with the floor at y = 0, its content, and the view point.
 import * as THREE from '/three/build/three.module.js';
 import {OrbitControls} from '/three/examples/jsm/controls/OrbitControls.js';
 import {Cloud} from './cloud.js';
@@ -29,7 +29,7 @@ export class Scene {
     this.controls = new OrbitControls(this.eye, canvas);
     this.controls.addEventListener('change', () => this.draw());
     this.addContent();
-    this.look('orbit');
+    this.setView('orbit');
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
   }
 
@@ -125,7 +125,7 @@ export class Scene {
   }
 
   // orbit, camera, top, side or follow.
-  look(view) {
+  setView(view) {
     this.view = view;
     const target = this.followed() ?? new THREE.Vector3(0, 0.9, 2.5);
     const from = {

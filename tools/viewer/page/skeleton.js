@@ -17,5 +17,5 @@ export function angle(from, at, to) {
   return Math.acos(Math.max(-1, Math.min(1, cosine))) * 180 / Math.PI;
 }
 
-// Image place of a point in camera space: x to the left, y up, z forward, metres.
+// Pixel of a point in camera space (x to the left, y up, z forward, metres).
 export const project = (camera, p) => [camera.cx - camera.fx * p[0] / p[2], camera.cy - camera.fy * p[1] / p[2]];

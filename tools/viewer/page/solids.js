@@ -1,4 +1,4 @@
-// Solids of a mechanical world: boxes, balls, capsules; a character's in the colour of its person.
+// Solids of the physical world: boxes, balls, capsules; those of a character in the colour of its person.
 import * as THREE from '/three/build/three.module.js';
 import {THINGS, personColour} from './colours.js';
 

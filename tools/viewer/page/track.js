@@ -1,7 +1,7 @@
-// Skeletons over time, and what is measured of them: curves, presence, error, worst frames.
+// Skeletons over time and quantities of them: curves, presence, error, worst frames.
 import {JOINTS, angle, distance} from './skeleton.js';
 
-const LIVE_FRAMES = 900;  // half a minute at 30 a second is kept of a camera
+const LIVE_FRAMES = 900;  // kept of a camera: half a minute at 30 frames a second
 
 export class Track {
   constructor(name) {
@@ -110,7 +110,7 @@ function overBodies(track, i, choose, value) {
   return values.length ? choose(...values) : NaN;
 }
 
-// Of a frame, the larger the worse.
+// Value of a frame; larger is worse.
 export const MEASURES = {
   'error to the overlay': {
     unit: 'cm', digits: 1, needsOverlay: true,

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "recon/files/skeleton_jsonl.h"
-#include "tools/viewer/desk_internal.h"
+#include "tools/viewer/shared_state_internal.h"
 
 namespace ossa::viewer {
 namespace {
@@ -34,7 +34,7 @@ nlohmann::json JsonOf(const Settings& settings) {
 
 }  // namespace
 
-Desk::Desk(const ViewerOptions& with)
+SharedState::SharedState(const ViewerOptions& with)
     : options(with),
       store(with.keeps, with.forest, with.body),
       recorder(with.recordings),
@@ -42,22 +42,23 @@ Desk::Desk(const ViewerOptions& with)
       begun_ms_(Now_ms()),
       settings_(with.settings) {}
 
-std::string Desk::StateJson() const {
+std::string SharedState::StateJson() const {
   const FrameStore::Count count = store.count();
-  nlohmann::json json = {
-      {"name", options.name},
-      {"begun_ms", begun_ms_},
-      {"kept", store.keeps()},
-      {"frames", count.frames},
-      {"generation", count.generation},
-      {"complete", count.complete},
-      {"expected", nullptr},
-      {"overlays", nlohmann::json::array()},
-      {"methods", options.methods},
-      {"smoothings", options.smoothings},
-      {"settings", nullptr},
-      {"recording",
-       {{"possible", recorder.possible()}, {"on", recorder.asked()}, {"said", recorder.said()}}}};
+  nlohmann::json json = {{"name", options.name},
+                         {"begun_ms", begun_ms_},
+                         {"kept", store.keeps()},
+                         {"frames", count.frames},
+                         {"generation", count.generation},
+                         {"complete", count.complete},
+                         {"expected", nullptr},
+                         {"overlays", nlohmann::json::array()},
+                         {"methods", options.methods},
+                         {"smoothings", options.smoothings},
+                         {"settings", nullptr},
+                         {"recording",
+                          {{"possible", recorder.possible()},
+                           {"on", recorder.requested()},
+                           {"said", recorder.status()}}}};
   if (options.expected_frames) json["expected"] = *options.expected_frames;
   for (size_t i = 0; i < overlay_lines_.size(); ++i) {
     json["overlays"].push_back(
@@ -69,14 +70,14 @@ std::string Desk::StateJson() const {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string Desk::FinalLines(int64_t from, int64_t count) const {
+std::string SharedState::FinalLines(int64_t from, int64_t count) const {
   std::string text;
   const int64_t frames = store.keeps() ? store.count().frames : 0;
   for (int64_t i = from; i < std::min(frames, from + count); ++i) text += store.Line(i) + '\n';
   return text;
 }
 
-std::string Desk::OverlayLines(size_t overlay, int64_t from, int64_t count) const {
+std::string SharedState::OverlayLines(size_t overlay, int64_t from, int64_t count) const {
   std::string text;
   if (overlay >= overlay_lines_.size()) return text;
   const std::vector<std::string>& lines = overlay_lines_[overlay];
@@ -85,7 +86,7 @@ std::string Desk::OverlayLines(size_t overlay, int64_t from, int64_t count) cons
   return text;
 }
 
-void Desk::ChangeSettings(const Settings& settings) {
+void SharedState::ChangeSettings(const Settings& settings) {
   const std::lock_guard lock(mutex_);
   refused_.clear();
   if (!settings_ || *settings_ == settings) return;
@@ -93,20 +94,20 @@ void Desk::ChangeSettings(const Settings& settings) {
   changed_ = true;
 }
 
-std::optional<Settings> Desk::TakeSettings() {
+std::optional<Settings> SharedState::TakeSettings() {
   const std::lock_guard lock(mutex_);
   if (!changed_) return std::nullopt;
   changed_ = false;
   return settings_;
 }
 
-void Desk::Refuse(const Settings& still, const std::string& why) {
+void SharedState::Refuse(const Settings& still, const std::string& why) {
   const std::lock_guard lock(mutex_);
   settings_ = still;
   refused_ = why;
 }
 
-std::optional<Settings> Desk::settings() const {
+std::optional<Settings> SharedState::settings() const {
   const std::lock_guard lock(mutex_);
   return settings_;
 }

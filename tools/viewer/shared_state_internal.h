@@ -10,9 +10,9 @@
 
 namespace ossa::viewer {
 
-/// What pages are told and may ask for: the one place where browsers and the tracker's thread meet.
-struct Desk {
-  explicit Desk(const ViewerOptions& options);
+/// State shared by the thread of the tracker and the thread that serves browsers.
+struct SharedState {
+  explicit SharedState(const ViewerOptions& options);
 
   const ViewerOptions options;
   FrameStore store;
@@ -20,7 +20,7 @@ struct Desk {
 
   /// The state as JSON: what is shown, how many frames there are, settings, recording.
   std::string StateJson() const;
-  /// Skeleton JSONL of so many frames from one on, as far as they are there.
+  /// Skeleton JSONL of up to `count` frames from `from` on.
   std::string FinalLines(int64_t from, int64_t count) const;
   std::string OverlayLines(size_t overlay, int64_t from, int64_t count) const;
 
@@ -31,11 +31,11 @@ struct Desk {
 
  private:
   const std::vector<std::vector<std::string>> overlay_lines_;  // one per overlay, one per frame
-  const int64_t begun_ms_;  // since 1970: tells a page that was left open that this is another run
+  const int64_t begun_ms_;    // since 1970: identifies the run to a page that was left open
   mutable std::mutex mutex_;  // guards all below
   std::optional<Settings> settings_;
   bool changed_ = false;
-  std::string refused_;  // why the last ones could not be had
+  std::string refused_;  // why the last change of settings failed
 };
 
 }  // namespace ossa::viewer

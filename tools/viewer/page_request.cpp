@@ -3,7 +3,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/json_nesting.h"
-#include "tools/viewer/wish_internal.h"
+#include "tools/viewer/page_request_internal.h"
 
 namespace ossa::viewer {
 namespace {
@@ -30,14 +30,14 @@ std::string OneOf(const Json& json, const char* name, const std::vector<std::str
   throw InputError(std::string(name) + ": expected one of those that the state lists");
 }
 
-Settings ReadSettings(const Json& json, const Desk& desk) {
+Settings ReadSettings(const Json& json, const SharedState& shared) {
   if (!json.is_object()) throw InputError("settings: expected an object");
-  const std::optional<Settings> before = desk.settings();
+  const std::optional<Settings> before = shared.settings();
   if (!before) throw InputError("settings: nothing can be changed");
   Settings settings = *before;
-  std::vector<std::string> smoothings = desk.options.smoothings;
-  smoothings.emplace_back();  // what goes with the method
-  if (json.contains("method")) settings.method = OneOf(json, "method", desk.options.methods);
+  std::vector<std::string> smoothings = shared.options.smoothings;
+  smoothings.emplace_back();  // the default of the method
+  if (json.contains("method")) settings.method = OneOf(json, "method", shared.options.methods);
   if (json.contains("smoothing")) settings.smoothing = OneOf(json, "smoothing", smoothings);
   if (json.contains("seated")) settings.seated = Flag(json, "seated");
   if (json.contains("near")) settings.near_range = Flag(json, "near");
@@ -57,18 +57,18 @@ Json ParseObject(std::string_view text) {
 
 }  // namespace
 
-Wish ReadWish(std::string_view text, const Desk& desk) {
+PageRequest ParsePageRequest(std::string_view text, const SharedState& shared) {
   constexpr int64_t kMostFrames = int64_t{1} << 40;  // count; beyond any recording: by hand
   constexpr int kLargestStep = 4;                    // pixels: 160 x 120 of 640 x 480, by hand
   const Json json = ParseObject(text);
-  Wish wish;
-  if (json.contains("frame")) wish.frame = WholeNumber(json, "frame", 0, kMostFrames);
-  if (json.contains("after")) wish.after = WholeNumber(json, "after", -1, kMostFrames);
+  PageRequest page_request;
+  if (json.contains("frame")) page_request.frame = WholeNumber(json, "frame", 0, kMostFrames);
+  if (json.contains("after")) page_request.after = WholeNumber(json, "after", -1, kMostFrames);
   if (json.contains("step"))
-    wish.step = static_cast<int>(WholeNumber(json, "step", 1, kLargestStep));
-  if (json.contains("settings")) wish.settings = ReadSettings(json["settings"], desk);
-  if (json.contains("record")) wish.record = Flag(json, "record");
-  return wish;
+    page_request.step = static_cast<int>(WholeNumber(json, "step", 1, kLargestStep));
+  if (json.contains("settings")) page_request.settings = ReadSettings(json["settings"], shared);
+  if (json.contains("record")) page_request.record = Flag(json, "record");
+  return page_request;
 }
 
 }  // namespace ossa::viewer
