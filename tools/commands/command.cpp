@@ -19,7 +19,7 @@ namespace ossa::commands {
 namespace {
 
 template <typename T>
-bool IsWhole(const std::string& text) {
+bool IsWholeNumber(const std::string& text) {
   T number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size();
@@ -35,8 +35,8 @@ void CheckValues(const CLI::App& app) {
       if (text.empty() && option->get_expected_min() > 0) {
         throw UsageError(fmt::format("{}: expected a value, found ''", option->get_name()));
       }
-      const bool good = type.starts_with("UINT")  ? IsWhole<uint64_t>(text)
-                        : type.starts_with("INT") ? IsWhole<int64_t>(text)
+      const bool good = type.starts_with("UINT")  ? IsWholeNumber<uint64_t>(text)
+                        : type.starts_with("INT") ? IsWholeNumber<int64_t>(text)
                         : type.starts_with("FLOAT")
                             ? std::isfinite(std::strtod(text.c_str(), nullptr))
                             : true;
@@ -59,7 +59,7 @@ std::string FindUnknownOption(const CLI::App& app) {
 }
 
 // The option that was most likely meant by that word.
-std::string MeantOption(const CLI::App& app) {
+std::string SuggestOption(const CLI::App& app) {
   const std::string word = FindUnknownOption(app);
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -93,13 +93,13 @@ void Parse(CLI::App& app, int argc, char** argv) {
     throw HelpShown{};
   } catch (const CLI::ExtrasError& error) {
     throw UsageError(
-        fmt::format("{} ({}see 'ossa {} --help')", error.what(), MeantOption(app), command));
+        fmt::format("{} ({}see 'ossa {} --help')", error.what(), SuggestOption(app), command));
   } catch (const CLI::RequiredError& error) {
     // What is missing may be there under a name that was mistyped.
     const std::string unknown = FindUnknownOption(app);
     throw UsageError(fmt::format("{}{} ({}see 'ossa {} --help')", error.what(),
                                  unknown.empty() ? "" : ", and " + unknown + " was not expected",
-                                 MeantOption(app), command));
+                                 SuggestOption(app), command));
   } catch (const CLI::ParseError& error) {
     throw UsageError(fmt::format("{} (see 'ossa {} --help')", error.what(), command));
   }

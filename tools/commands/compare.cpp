@@ -135,7 +135,7 @@ void WriteReport(const tools::Comparison& comparison, const CompareArguments& a)
   if (!a.quiet && !a.json_to_stdout()) fmt::print("\nReport: {}\n", a.report);
 }
 
-void Tell(const tools::Comparison& comparison, const CompareArguments& a) {
+void PrintComparison(const tools::Comparison& comparison, const CompareArguments& a) {
   // Printed before the files are written, so that a full disk does not lose the numbers.
   if (a.json_to_stdout()) {
     fmt::print("{}", tools::ToJson(comparison));
@@ -163,8 +163,8 @@ int Compare(int argc, char** argv) {
   a.options.stop = Interrupted;
   a.options.reading.progress = ReadingBar(a.quiet);
   const tools::Comparison comparison = Compared(a.truth, a.results, a.options, a.quiet);
-  SayWarnings("compare", comparison.warnings);
-  Tell(comparison, a);
+  PrintWarnings("compare", comparison.warnings);
+  PrintComparison(comparison, a);
   return 0;
 }
 

@@ -86,7 +86,7 @@ int Database(int argc, char** argv) {
   a.motion.stop = Interrupted;
   const auto motions = recon::LoadMocap(a.mocap, a.motion);
   CheckNotInterrupted();
-  SayWarnings("database", motions);
+  PrintWarnings("database", motions);
   const auto clips = ToPostures(motions, a.quiet);
   const auto database = recon::PostureDatabase::Build(clips, a.options, Interrupted);
   CheckNotInterrupted();

@@ -77,7 +77,7 @@ void DecisionTrace::Finish() {
   if (!file_) return;
   if (!full_) return file_->Finish();
   file_->FinishWithWhatFits();
-  throw NamingWhatIsKept(*full_, frames_, frames_ + 1);
+  throw MakeKeptError(*full_, frames_, frames_ + 1);
 }
 
 }  // namespace ossa::commands

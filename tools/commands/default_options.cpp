@@ -93,7 +93,7 @@ class LineReader {
 };
 
 // The value for an option that takes one.
-void Give(CLI::Option& option, const DefaultValue& value) {
+void SetValue(CLI::Option& option, const DefaultValue& value) {
   const bool is_flag = option.get_items_expected_max() == 0;
   for (const std::string& text : value.values) {
     if (is_flag && text != "true" && text != "false") {
@@ -186,7 +186,7 @@ void ApplyDefaults(CLI::App& app, std::string_view command) {
     CLI::Option& option = FindOption(app, value, place);
     if (option.count() > 0) continue;  // the command line takes precedence
     try {
-      Give(option, value);
+      SetValue(option, value);
     } catch (const CLI::ParseError& error) {
       throw InputError(fmt::format("{}: {}", place, error.what()));
     }

@@ -32,12 +32,12 @@ int Show(const char* title, const std::vector<Finding>& findings, bool quiet) {
 int Doctor(int argc, char** argv) {
   CLI::App app(
       "Check what keeps cameras from working: devices, permissions, drivers, models; and say what "
-      "to do. Exit status 1 if something is to be done");
+      "to do. Exit status 1 if there is a problem");
   std::string root = "/";
   bool quiet = false;
   app.add_option("--root", root, "look for cameras in sys/ and dev/ of this folder")
       ->capture_default_str();
-  app.add_flag("--quiet", quiet, "show only what is to be done");
+  app.add_flag("--quiet", quiet, "show problems only");
   Parse(app, argc, argv);
   if (!std::filesystem::is_directory(root)) throw InputError(root + ": expected a folder");
   const int open = Show("cameras", CheckCameras(root), quiet) +

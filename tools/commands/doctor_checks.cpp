@@ -98,7 +98,7 @@ std::string FindVideoDriver(const UsbDevice& device) {
   return {};
 }
 
-std::string ToDoFor(const UsbDevice& device) {
+std::string DescribeRemedy(const UsbDevice& device) {
   if (device.known.way == Way::kMakersOwn) {
     return "no OpenNI2 driver of Debian's: record with its maker's software, or read it through "
            "its Python wheel (docs/cameras.md)";
@@ -131,7 +131,7 @@ bool IsWithoutPower(const std::vector<UsbDevice>& devices) {
   return has(Way::kNoCamera) && !has(Way::kFreenect);
 }
 
-Finding TryDriver(const fs::path& file) {
+Finding CheckDriver(const fs::path& file) {
   const std::string name = file.filename().string();
   if (void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); library != nullptr) {
     return {name, {}};
@@ -161,7 +161,7 @@ std::vector<Finding> CheckCameras(const fs::path& root) {
   for (const UsbDevice& device : devices) {
     if (device.known.way == Way::kNoCamera) continue;
     findings.push_back(
-        {fmt::format("{} ({})", device.known.name, device.known.id), ToDoFor(device)});
+        {fmt::format("{} ({})", device.known.name, device.known.id), DescribeRemedy(device)});
   }
   if (IsWithoutPower(devices)) {
     findings.push_back({"a Kinect v1 of which the camera is not seen",
@@ -189,7 +189,7 @@ std::vector<Finding> CheckDrivers() {
   }
   std::sort(files.begin(), files.end());
   std::vector<Finding> findings;
-  for (const fs::path& file : files) findings.push_back(TryDriver(file));
+  for (const fs::path& file : files) findings.push_back(CheckDriver(file));
   return findings;
 }
 

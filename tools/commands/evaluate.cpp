@@ -30,8 +30,8 @@ nlohmann::ordered_json ReadCard(const std::string& path, const forest::ForestMod
   return card;
 }
 
-void NoteInCard(const std::string& path, const forest::ForestModel& model, const std::string& name,
-                const std::string& evaluation) {
+void AddToCard(const std::string& path, const forest::ForestModel& model, const std::string& name,
+               const std::string& evaluation) {
   auto card = ReadCard(path, model);
   auto numbers = nlohmann::ordered_json::parse(evaluation);
   for (const char* detail :
@@ -110,7 +110,7 @@ int Evaluate(int argc, char** argv) {
                                   tools::EvaluationHtml(evaluation, a.model + " on " + a.dataset));
                       },
                       [&] {
-                        if (!a.card.empty()) NoteInCard(a.model, model, a.card, json);
+                        if (!a.card.empty()) AddToCard(a.model, model, a.card, json);
                       }});
   return 0;
 }

@@ -20,9 +20,9 @@ namespace {
 // Prints each warning once: studies load their models many times.
 class NewWarnings {
  public:
-  void Say(const std::string& warning) {
+  void PrintError(const std::string& warning) {
     const std::lock_guard lock(mutex_);
-    if (said_.insert(warning).second) SayWarnings("experiment", std::vector{warning});
+    if (said_.insert(warning).second) PrintWarnings("experiment", std::vector{warning});
   }
 
  private:
@@ -54,7 +54,7 @@ int RunAndPrint(const std::string& name, tools::ExperimentContext& context, bool
   };
   context.interrupted = Interrupted;
   NewWarnings warnings;
-  context.warn = [&](const std::string& warning) { warnings.Say(warning); };
+  context.warn = [&](const std::string& warning) { warnings.PrintError(warning); };
   try {
     const auto tables = tools::RunExperiment(name, context);
     AtomicFile page(context.out / "index.html");

@@ -37,8 +37,8 @@ class FloorOption {
     if (text_.empty()) return;
     const auto floor = plane_ ? plane_ : tracker::EstimateFloor(sequence);
     if (!floor && !quiet) {
-      Say(fmt::format("reconstruct: {}: nobody stands straight for long: no floor\n",
-                      sequence.source));
+      PrintError(fmt::format("reconstruct: {}: nobody stands straight for long: no floor\n",
+                             sequence.source));
     }
     if (!floor) return;
     for (recon::SkeletonFrame& frame : sequence.frames) {

@@ -67,7 +67,7 @@ std::vector<recon::SkeletonSequence> ReadAll(Arguments& a) {
   for (const std::string& path : a.recordings) {
     recordings.push_back(recon::ReadSkeletons(path, a.read));
     if (Interrupted()) throw InputError("fuse: interrupted; nothing was written");
-    SayWarnings("fuse", recordings.back().warnings);
+    PrintWarnings("fuse", recordings.back().warnings);
   }
   return recordings;
 }
@@ -84,7 +84,7 @@ int Fuse(int argc, char** argv) {
   const auto recordings = ReadAll(a);
   const auto fused = FuseRecordings(a.fuse, a.recordings, recordings, a.quiet);
   if (Interrupted()) throw InputError("fuse: interrupted; nothing was written");
-  SayWarnings("fuse", fused.skeletons.warnings);
+  PrintWarnings("fuse", fused.skeletons.warnings);
   WriteFused("fuse", a.fuse, a.out, fused, write);
   return 0;
 }

@@ -12,7 +12,7 @@
 namespace ossa::commands {
 namespace {
 
-void SayCamera(const std::string& first, const recon::CameraEstimate& estimate) {
+void PrintCamera(const std::string& first, const recon::CameraEstimate& estimate) {
   const Eigen::Isometry3d& moved = estimate.camera.from_camera_0;
   fmt::print(
       "{}: {:.2f} m from {}, turned by {:.1f} degrees, clock offset {:.3f} s; joints {:.1f} cm "
@@ -34,7 +34,7 @@ recon::Extrinsics FindExtrinsics(const FuseArguments& arguments,
   for (size_t k = 1; k < recordings.size(); ++k) {
     auto estimate = recon::EstimateCamera(recordings.front(), recordings[k], arguments.estimate);
     estimate.camera.name = names[k];
-    if (!quiet) SayCamera(names.front(), estimate);
+    if (!quiet) PrintCamera(names.front(), estimate);
     cameras.push_back(estimate.camera);
   }
   return cameras;

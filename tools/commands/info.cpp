@@ -238,7 +238,7 @@ void ShowUpright(const SourceArguments& arguments) {
              90 * tracker.quarter_turns());
 }
 
-bool HoldsAnything(const fs::path& path) { return !fs::is_directory(path) || !fs::is_empty(path); }
+bool IsNonEmpty(const fs::path& path) { return !fs::is_directory(path) || !fs::is_empty(path); }
 
 void ShowSkeletonClip(const recon::SkeletonClip& clip) {
   const auto& frames = clip.sequence.frames;
@@ -258,7 +258,7 @@ void ShowSkeletons(const fs::path& path) {
   reading.columns = "observed";
   reading.progress = ReadingBar(false);
   auto clips = recon::ReadSkeletonClips(path, reading);
-  SayWarnings("info", clips);
+  PrintWarnings("info", clips);
   const auto may_have_another = [](const recon::SkeletonClip& clip) {
     return clip.sequence.columns == "observed";
   };
@@ -290,7 +290,7 @@ constexpr std::array kKinds = {
 };
 
 // FILE#truth, FILE.bag#/topic and similar are files, too; devices are described by their driver.
-void ExpectIsThere(const std::string& file) {
+void RequireExists(const std::string& file) {
   if (IsDevice(file)) return;
   const bool is_there = fs::exists(file) || fs::exists(recon::FindSkeletonFile(file)) ||
                         (depth::IsRecording(file) && fs::exists(file.substr(0, file.rfind('#'))));
@@ -312,7 +312,7 @@ void Show(const SourceArguments& arguments, const std::string& surface, bool is_
     return kind.show(path);
   }
   if (is_depth || depth::IsRecording(path)) return ShowDepthRecording(arguments);
-  if (HoldsAnything(path)) return ShowSkeletons(path);
+  if (IsNonEmpty(path)) return ShowSkeletons(path);
   throw InputError(arguments.name +
                    ": expected a DATASET, a folder of PNGs or one of skeleton files");
 }
@@ -342,7 +342,7 @@ int Info(int argc, char** argv) {
   if (!picture.empty() && IsDevice(file.name)) {
     throw UsageError("--picture: " + file.name + ": expected a recording, found a device");
   }
-  ExpectIsThere(file.name);
+  RequireExists(file.name);
   if (!picture.empty()) WriteInfoPicture(file, picture);
   // With options for reading depths, a DATASET is read as images, too.
   const size_t others = 2 + app.count("--picture") + app.count("--surface");

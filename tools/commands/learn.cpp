@@ -21,8 +21,8 @@
 namespace ossa::commands {
 namespace {
 
-bool SayWarningsOf(const std::vector<recon::SkeletonClip>& clips) {
-  SayWarnings("learn", clips);
+bool PrintReadingWarnings(const std::vector<recon::SkeletonClip>& clips) {
+  PrintWarnings("learn", clips);
   return !Interrupted();
 }
 
@@ -114,7 +114,7 @@ LearnArguments ParseLearnOptions(int argc, char** argv) {
 
 int Learn(int argc, char** argv) {
   const LearnArguments a = ParseLearnOptions(argc, argv);
-  const auto pairs = tools::PairRecordings(a.observed, a.truth, a.reading, SayWarningsOf);
+  const auto pairs = tools::PairRecordings(a.observed, a.truth, a.reading, PrintReadingWarnings);
   if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
   CheckPairs(a.observed, pairs);
   Progress progress("learn", a.quiet);

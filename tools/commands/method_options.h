@@ -66,8 +66,8 @@ inline constexpr MethodOption kMethodOptions[] = {{"--database", ReadsDatabase, 
                                                   {"--keep-reliable", HasLocalPca},
                                                   {"--extend", IsShum2013}};
 
-inline void SayNotRead(const std::string& option, const std::string& method) {
-  Say(fmt::format("ossa: {} is not read by --method {}\n", option, method));
+inline void PrintNotRead(const std::string& option, const std::string& method) {
+  PrintError(fmt::format("ossa: {} is not read by --method {}\n", option, method));
 }
 
 /// Throws UsageError for a given option that the method does not read, because the result would not
@@ -83,7 +83,7 @@ inline void CheckRead(const CLI::App& app, const std::string& method, bool quiet
           fmt::format("{} is not read by --method {}: expected a method that does ({})", name,
                       method, MethodsThat(is_read_by)));
     }
-    if (!quiet) SayNotRead(name, method);
+    if (!quiet) PrintNotRead(name, method);
   }
 }
 

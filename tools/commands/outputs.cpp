@@ -30,7 +30,7 @@ bool IsSameFile(const fs::path& a, const fs::path& b) {
 
 // Whether a file is part of an input folder: images, labels, truth and the like of a data set or a
 // folder of frames. Results may be in the same folder.
-bool IsReadOf(const fs::path& folder, const fs::path& output) {
+bool IsPartOfInput(const fs::path& folder, const fs::path& output) {
   std::error_code unknown;
   if (!fs::is_directory(folder, unknown) || !fs::exists(output, unknown)) return false;
   const fs::path inside = fs::weakly_canonical(output, unknown)
@@ -54,7 +54,7 @@ void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std
     }
     for (const std::string& input : inputs) {
       const fs::path file = recon::FindSkeletonFile(input);
-      if (!IsSameFile(outputs[i], file) && !IsReadOf(file, outputs[i])) continue;
+      if (!IsSameFile(outputs[i], file) && !IsPartOfInput(file, outputs[i])) continue;
       throw UsageError(outputs[i] + ": expected a new file, found what is to be read");
     }
   }
@@ -82,10 +82,10 @@ void CheckSkeletonName(const std::string& path) {
   }
 }
 
-void SayLeftovers(const std::string& path) {
+void PrintLeftovers(const std::string& path) {
   for (const fs::path& left : AtomicFile::FindLeftovers(path)) {
-    Say(fmt::format("ossa: {}: left by an ossa that was killed: it stays, and can be read\n",
-                    left.string()));
+    PrintError(fmt::format("ossa: {}: left by an ossa that was killed: it stays, and can be read\n",
+                           left.string()));
   }
 }
 
@@ -106,19 +106,19 @@ void DoEach(const char* command, std::initializer_list<std::function<void()>> st
     try {
       step();
     } catch (const std::exception& error) {
-      if (first) Say(fmt::format("ossa {}: {}\n", command, error.what()));
+      if (first) PrintError(fmt::format("ossa {}: {}\n", command, error.what()));
       if (!first) first = std::current_exception();
     }
   }
   if (first) std::rethrow_exception(first);
 }
 
-InputError NamingWhatIsKept(const DiskFull& full, int64_t kept, int64_t of) {
+InputError MakeKeptError(const DiskFull& full, int64_t kept, int64_t of) {
   return InputError(fmt::format("{} {} were kept", full.what(), FramesText(kept, of)));
 }
 
-InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer) {
-  return NamingWhatIsKept(full, writer.FinishWithWhatFits(), writer.frame_count());
+InputError FinishWithWhatFits(const DiskFull& full, recon::SkeletonWriter& writer) {
+  return MakeKeptError(full, writer.FinishWithWhatFits(), writer.frame_count());
 }
 
 void WriteOptions::AddTo(CLI::App& app) {
@@ -168,7 +168,7 @@ void WriteSkeletonsThatFit(const std::string& path, const recon::SkeletonSequenc
     for (const recon::SkeletonFrame& frame : sequence.frames) writer.Write(frame);
     writer.Finish();
   } catch (const DiskFull& full) {
-    throw KeepWhatFits(full, writer);
+    throw FinishWithWhatFits(full, writer);
   }
 }
 

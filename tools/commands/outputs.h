@@ -33,7 +33,7 @@ void CheckNotOtherKind(const char* option, const std::string& path, const char* 
 void CheckSkeletonName(const std::string& path);
 
 /// Prints a line for each leftover of this output from a killed run, which is kept.
-void SayLeftovers(const std::string& path);
+void PrintLeftovers(const std::string& path);
 
 /// "27 of 150 frames"; "27 frames" if the total is unknown.
 std::string FramesText(int64_t frames, std::optional<int64_t> of);
@@ -46,11 +46,11 @@ void WriteText(const std::string& path, const std::string& text);
 void DoEach(const char* command, std::initializer_list<std::function<void()>> steps);
 
 /// A message about a full disk and the number of frames kept.
-InputError NamingWhatIsKept(const DiskFull& full, int64_t kept, int64_t of);
+InputError MakeKeptError(const DiskFull& full, int64_t kept, int64_t of);
 
 /// Finishes a file on a full disk after its last complete frame; throws with the number of frames
 /// kept.
-InputError KeepWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
+InputError FinishWithWhatFits(const DiskFull& full, recon::SkeletonWriter& writer);
 
 /// The options --bvh-names and --mesh for writing skeletons.
 struct WriteOptions {

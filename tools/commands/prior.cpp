@@ -123,7 +123,7 @@ int Prior(int argc, char** argv) {
   CheckFiles(a);
   a.mocap_options.stop = Interrupted;
   const auto motions = recon::LoadMocap(a.mocap, a.mocap_options);
-  SayWarnings("prior", motions);
+  PrintWarnings("prior", motions);
   const auto clips = ToPriorClips(motions, a.authored_weight);
   if (Interrupted()) throw InputError("prior: interrupted; nothing was written");
   auto prior = recon::PosturePrior::Learn(clips, a.options);

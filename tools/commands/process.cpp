@@ -29,7 +29,7 @@ int64_t Now_ms() {
 
 // timeout(1), mpirun and scripts may send the same signal to the process and to its group: two
 // within this time count as one.
-void NoteInterrupt(int signal) {
+void HandleInterrupt(int signal) {
   constexpr int64_t kImpatient_ms = 500;  // by hand
   const int64_t now_ms = Now_ms();
   if (interrupted == 0) {
@@ -55,14 +55,14 @@ void PrepareProcess() {
     // printing to it fails.
     if (open("/dev/null", O_RDONLY) != stream) break;
   }
-  std::signal(SIGINT, NoteInterrupt);
-  std::signal(SIGTERM, NoteInterrupt);
-  if (std::signal(SIGHUP, NoteInterrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGINT, HandleInterrupt);
+  std::signal(SIGTERM, HandleInterrupt);
+  if (std::signal(SIGHUP, HandleInterrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, FailTheWrite);
   std::signal(SIGXFSZ, FailTheWrite);
 }
 
-void Say(const std::string& text) {
+void PrintError(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
@@ -87,8 +87,8 @@ int EndOutput(int status, int error_number) {
     std::raise(SIGPIPE);
   }
   if (status == 0) {
-    Say(std::string("ossa: standard output: cannot be written") +
-        (errno != 0 ? std::string(": ") + std::strerror(errno) : "") + "\n");
+    PrintError(std::string("ossa: standard output: cannot be written") +
+               (errno != 0 ? std::string(": ") + std::strerror(errno) : "") + "\n");
   }
   return status == 0 ? 1 : status;
 }

@@ -15,7 +15,7 @@ void PrepareProcess();
 
 /// Prints to stderr for the user, ignoring failures: a full or closed stderr must not end a long
 /// run.
-void Say(const std::string& text);
+void PrintError(const std::string& text);
 
 /// Whether stderr is a terminal on which a line can be rewritten (TERM is not dumb).
 bool CanMoveCursor();

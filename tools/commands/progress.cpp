@@ -29,7 +29,7 @@ Progress::Progress(std::string label, bool quiet)
     : label_(std::move(label)), quiet_(quiet), terminal_(CanMoveCursor()), start_s_(Now_s()) {}
 
 Progress::~Progress() {
-  if (open_line_) Say("\n");
+  if (open_line_) PrintError("\n");
 }
 
 void Progress::Update(double done, double total, const std::string& note) {
@@ -43,11 +43,11 @@ void Progress::Update(double done, double total, const std::string& note) {
   if (terminal_) {
     constexpr int kWidth = 30;  // characters, by eye
     const int filled = static_cast<int>(share * kWidth);
-    Say(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} % {}{}\033[K", label_, "", filled, "",
-                    kWidth - filled, 100 * share, left, note));
+    PrintError(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} % {}{}\033[K", label_, "", filled, "",
+                           kWidth - filled, 100 * share, left, note));
     open_line_ = true;
   } else {
-    Say(fmt::format("{}: {:.0f} of {:.0f} {}{}\n", label_, done, total, left, note));
+    PrintError(fmt::format("{}: {:.0f} of {:.0f} {}{}\n", label_, done, total, left, note));
   }
 }
 

@@ -58,8 +58,8 @@ struct ReconstructArguments {
 
 /// The correction for the recordings' sensor: the named file; else, for methods that use a
 /// correction, the shipped one if all recordings are of one known sensor.
-std::string LearnedFor(const ReconstructArguments& a,
-                       const std::vector<recon::SkeletonClip>& clips) {
+std::string FindLearnedFile(const ReconstructArguments& a,
+                            const std::vector<recon::SkeletonClip>& clips) {
   if (a.files.learned == "none" || !ReadsLearned(a.options.method)) return {};
   const bool is_correction = RequireMethodInfo(a.options.method).learned == recon::Reads::kOptional;
   if (!a.files.learned.empty() || !is_correction) return a.files.learned;
@@ -70,7 +70,7 @@ std::string LearnedFor(const ReconstructArguments& a,
   });
   if (known == nullptr || !all) return {};
   if (!a.quiet) {
-    Say(
+    PrintError(
         fmt::format("reconstruct: {}: their known errors are taken off ({}; --learned none "
                     "leaves them)\n",
                     known->description, known->correction));
@@ -80,7 +80,7 @@ std::string LearnedFor(const ReconstructArguments& a,
 
 /// Whether --out is a folder: for several recordings, and for one in a folder or archive if --out
 /// has no extension. Throws UsageError for several recordings and a name with an extension.
-bool GoesToFolder(const ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips) {
+bool IsOutputFolder(const ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips) {
   const std::filesystem::path out(a.out);
   if (clips.size() == 1) return out.extension().empty() && !clips[0].name.empty();
   for (const char* one : {".jsonl", ".bvh", ".glb", ".trc", ".csv"}) {
@@ -193,7 +193,7 @@ void PlayScene(const tracker::SceneOptions& options, recon::SkeletonSequence& se
     if (!update(++done)) return;
   }
   if (scene.has_floor() || options.objects.empty()) return;
-  Say(
+  PrintError(
       fmt::format("ossa reconstruct: {}: the recording has no floor, so that no object appeared: "
                   "expected floor = [a, b, c, d] in the file, or --floor\n",
                   a.mechanics.scene));
@@ -261,7 +261,7 @@ std::vector<recon::SkeletonClip> ReadClips(ReconstructArguments& a) {
   a.read.progress = ReadingBar(a.quiet);
   auto clips = recon::ReadSkeletonClips(a.skeletons, a.read);
   if (Interrupted()) throw InputError("reconstruct: interrupted; nothing was written");
-  SayWarnings("reconstruct", clips);
+  PrintWarnings("reconstruct", clips);
   CheckDynamicsOf(a, clips.size());
   for (auto& clip : clips) a.floor.Apply(clip.sequence, a.quiet);
   return clips;
@@ -272,14 +272,14 @@ void LoadModels(ReconstructArguments& a, const std::vector<recon::SkeletonClip>&
     a.options.database = tracker::LoadDatabase(a.files, a.options.method);
     a.options.prior = tracker::LoadPrior(a.files, a.options.method);
   }
-  a.options.learned_file = LearnedFor(a, clips);
+  a.options.learned_file = FindLearnedFile(a, clips);
 }
 
 /// The destination of the results: one file, or a folder with a file for each.
 class ClipFiles {
  public:
   ClipFiles(const ReconstructArguments& a, const std::vector<recon::SkeletonClip>& clips)
-      : out_(a.out), is_folder_(GoesToFolder(a, clips)), write_(a.write.For(a.out)) {
+      : out_(a.out), is_folder_(IsOutputFolder(a, clips)), write_(a.write.For(a.out)) {
     if (is_folder_) {
       std::filesystem::create_directories(out_);
     } else {
@@ -303,9 +303,9 @@ class ClipFiles {
 };
 
 /// The passes over each recording's frames (bones, postures, mechanics) and their progress.
-class Rounds {
+class Passes {
  public:
-  Rounds(const ReconstructArguments& a, const std::optional<tracker::SceneOptions>& scene,
+  Passes(const ReconstructArguments& a, const std::optional<tracker::SceneOptions>& scene,
          const std::vector<recon::SkeletonClip>& clips)
       : a_(a),
         options_(a.options),
@@ -384,7 +384,7 @@ int Reconstruct(int argc, char** argv) {
   const auto clips = ReadClips(a);
   const ClipFiles files(a, clips);
   LoadModels(a, clips);
-  Rounds rounds(a, scene, clips);
+  Passes rounds(a, scene, clips);
   size_t written = 0;  // frames
   for (const auto& clip : clips) {
     const recon::SkeletonSequence made = rounds.Make(clip);

@@ -154,7 +154,7 @@ int RecordWhatFits(Recorder recorder, depth::FrameSource& source, const RecordOp
     return RecordTo(recorder, source, options);
   } catch (const DiskFull& full) {
     const int64_t frames = recorder.frame_count();
-    throw NamingWhatIsKept(full, recorder.FinishWithWhatFits(), frames);
+    throw MakeKeptError(full, recorder.FinishWithWhatFits(), frames);
   }
 }
 
@@ -168,7 +168,7 @@ int Record(int argc, char** argv) {
     return RecordWhatFits(depth::FakenectDump(options.out, camera), *source, options);
   }
   AtomicFile::CheckWritable(options.out);
-  SayLeftovers(options.out);
+  PrintLeftovers(options.out);
   return RecordWhatFits(depth::OniRecorder(options.out, camera), *source, options);
 }
 

@@ -121,14 +121,15 @@ std::string ModelPath(const RefineArguments& a) {
 
 /// Sets the forest whose joints the cascade refines. Stages trained on those of another forest
 /// would give wrong joints without an error.
-uint64_t TellForest(const RefineArguments& a) {
+uint64_t SetForestChecksum(const RefineArguments& a) {
   const uint64_t forest = ReadContainerChecksum(a.options.model_name);
   if (a.after.empty()) return forest;
   const uint64_t known = a.options.after.forest_checksum;
   if (known != 0 && known != forest) {
-    SayWarnings("refine", std::vector<std::string>{fmt::format(
-                              "{}: its stages were learned at the joints of another forest than {}",
-                              a.after, a.options.model_name)});
+    PrintWarnings("refine",
+                  std::vector<std::string>{fmt::format(
+                      "{}: its stages were learned at the joints of another forest than {}",
+                      a.after, a.options.model_name)});
   }
   return known == 0 ? 0 : forest;
 }
@@ -148,7 +149,7 @@ int Refine(int argc, char** argv) {
   a.options.after = LoadKnown(a);
   a.options.model_name = ModelPath(a);
   const forest::ForestModel model = forest::ReadForestModel(a.options.model_name);
-  a.options.after.forest_checksum = TellForest(a);
+  a.options.after.forest_checksum = SetForestChecksum(a);
   Progress bar("refine", a.quiet);
   a.options.stop = Interrupted;
   a.options.progress = [&](int64_t done, int64_t total) {

@@ -347,7 +347,7 @@ int Render(int argc, char** argv) {
   mocap_options.stop = Interrupted;
   const auto clips = recon::LoadMocap(a.mocap, mocap_options);
   if (Interrupted()) throw InputError("render: interrupted; nothing was made");
-  if (ranks.rank() == 0) SayWarnings("render", clips);
+  if (ranks.rank() == 0) PrintWarnings("render", clips);
   const tools::PoseBankOptions bank = tools::MakeBankOptions(*tools::PosesFromName(a.poses));
   auto poses =
       a.sequence ? tools::SequencePoses(clips, a.frames, a.seed) : tools::MakePoseBank(clips, bank);

@@ -28,11 +28,13 @@ std::string HelpText(std::span<const Command> commands) {
 }
 
 // Former names of commands.
-std::string_view NameToday(std::string_view name) { return name == "look" ? "refine" : name; }
+std::string_view CurrentCommandName(std::string_view name) {
+  return name == "look" ? "refine" : name;
+}
 
-int Complain(const std::string& reason, int status) {
+int PrintFailure(const std::string& reason, int status) {
   const char* who = HasColours() ? "\033[1;31mossa:\033[0m " : "ossa: ";  // bold red
-  Say(who + OnOneLine(reason) + "\n");
+  PrintError(who + OnOneLine(reason) + "\n");
   return status;
 }
 
@@ -48,12 +50,12 @@ std::string UnknownCommand(std::span<const Command> commands, std::string_view n
 int RunNamed(std::span<const Command> commands, std::span<char*> arguments) {
   const std::string_view name = arguments.front();
   for (const Command& command : commands) {
-    if (command.name == NameToday(name)) {
+    if (command.name == CurrentCommandName(name)) {
       return command.run(static_cast<int>(arguments.size()), arguments.data());
     }
   }
-  Complain(UnknownCommand(commands, name), 2);
-  Say(HelpText(commands));
+  PrintFailure(UnknownCommand(commands, name), 2);
+  PrintError(HelpText(commands));
   return 2;
 }
 
@@ -88,21 +90,21 @@ int RunCommandOf(std::span<const Command> commands, const std::string& version, 
   }
   if (name == "--describe") return ListCommands(commands);
   if (argc > 1) return RunNamed(commands, std::span(argv, static_cast<size_t>(argc)).subspan(1));
-  Say(HelpText(commands));
+  PrintError(HelpText(commands));
   return 2;
 } catch (const HelpShown&) {
   return 0;
 } catch (const UsageError& error) {
-  return Complain(error.what(), 2);
+  return PrintFailure(error.what(), 2);
 } catch (const std::filesystem::filesystem_error& error) {
-  return Complain(error.path1().string() + ": " + error.code().message(), 1);
+  return PrintFailure(error.path1().string() + ": " + error.code().message(), 1);
 } catch (const std::bad_alloc&) {
-  return Complain("out of memory", 1);
+  return PrintFailure("out of memory", 1);
 } catch (const std::system_error& error) {
-  if (std::ferror(stdout) == 0) return Complain(error.what(), 1);
+  if (std::ferror(stdout) == 0) return PrintFailure(error.what(), 1);
   return EndOutput(0, error.code().value());
 } catch (const std::exception& error) {
-  return Complain(error.what(), 1);
+  return PrintFailure(error.what(), 1);
 }
 
 }  // namespace ossa::commands

@@ -19,19 +19,19 @@ namespace {
 
 constexpr double kLongest_s = 1e6;  // eleven days; an upper bound
 
-std::function<bool()> KeepWaitingFor(const std::string& source, bool quiet) {
+std::function<bool()> MakeWaitCallback(const std::string& source, bool quiet) {
   return [source, said = quiet]() mutable {
-    if (!said) Say(fmt::format("waiting for {} (Ctrl-C ends it)\n", source));
+    if (!said) PrintError(fmt::format("waiting for {} (Ctrl-C ends it)\n", source));
     said = true;
     return !Interrupted();
   };
 }
 
 // Prints a source's notes; those of a source that is opened twice in one run once.
-void SayNote(depth::NoteKind kind, const std::string& text, bool quiet,
-             std::set<std::string>& said) {
+void PrintNote(depth::NoteKind kind, const std::string& text, bool quiet,
+               std::set<std::string>& said) {
   if (quiet && kind == depth::NoteKind::kInfo) return;
-  if (said.insert(text).second) Say(text + "\n");
+  if (said.insert(text).second) PrintError(text + "\n");
 }
 
 depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) {
@@ -54,7 +54,7 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
     *guessed = guess.preset;
   };
   options.note = [quiet, said = arguments.said](depth::NoteKind kind, const std::string& text) {
-    SayNote(kind, OnOneLine(text), quiet, *said);
+    PrintNote(kind, OnOneLine(text), quiet, *said);
   };
   return options;
 }
@@ -66,7 +66,7 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
          "SOURCE", arguments.name,
          "openni: (first device), openni:URI, FILE.oni, FILE.mkv, FILE.bag, a 16-bit PNG or a "
          "folder "
-         "of them, or a DATASET; openni:ossa://PATH plays what is recorded as a live device")
+         "of them, or a DATASET; openni:ossa://PATH plays a recording as a live device")
       ->required();
   std::string presets;
   for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");
@@ -85,11 +85,12 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
   app.add_option("--fps", arguments.fps,
                  "frame rate of a recording, Hz (default: its own times, else 30)")
       ->check(CLI::Range(1e-3, 1e4));
-  app.add_flag("--mirrored", arguments.mirrored,
-               "the images are as a mirror shows them, as Kinect SDKs and libfreenect2 deliver "
-               "them: left and right are exchanged before anything else");
+  app.add_flag(
+      "--mirrored", arguments.mirrored,
+      "the images are mirrored, as Kinect SDKs and libfreenect2 deliver them: left and right "
+      "are exchanged before anything else");
   app.add_option("--rotate", arguments.rotate,
-                 "degrees by which the images must be turned clockwise for people to stand "
+                 "degrees by which the images must be rotated clockwise for people to stand "
                  "upright, or auto (default); results stay in the camera's own space")
       ->check(CLI::IsMember({"auto", "0", "90", "180", "270"}));
 }
@@ -110,7 +111,7 @@ void FindCamera(SourceArguments& arguments, const std::function<tracker::Tracker
                                                      options, [] { return !Interrupted(); });
     if (!finding) return;
     arguments.camera = tracker::CameraText(finding->found);
-    if (!quiet) Say(OnOneLine(arguments.name) + ": " + Describe(*finding) + "\n");
+    if (!quiet) PrintError(OnOneLine(arguments.name) + ": " + Describe(*finding) + "\n");
   } catch (const InputError&) {  // reported when it is opened
   }
 }
@@ -123,7 +124,7 @@ void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,
   } catch (const InputError&) {  // reported when it is opened
   }
   if (tracker.quarter_turns() == 0 || quiet) return;
-  Say(
+  PrintError(
       fmt::format("{}: people stand in its images once these are turned by {} degrees clockwise: "
                   "--rotate says otherwise\n",
                   OnOneLine(arguments.name), 90 * tracker.quarter_turns()));
@@ -141,7 +142,7 @@ void AddDeviceOptions(CLI::App& app, SourceArguments& arguments) {
 std::unique_ptr<depth::FrameSource> OpenSource(const SourceArguments& arguments, bool quiet) {
   depth::SourceOptions options = DepthOptions(arguments, quiet);
   options.device_wait = Milliseconds(arguments.wait_s);
-  if (arguments.wait_s > 0) options.keep_waiting = KeepWaitingFor(arguments.name, quiet);
+  if (arguments.wait_s > 0) options.keep_waiting = MakeWaitCallback(arguments.name, quiet);
   return depth::OpenSource(arguments.name, options);
 }
 

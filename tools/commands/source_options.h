@@ -20,7 +20,7 @@ struct SourceArguments {
   std::string name, camera, depth_format = "plain";
   double depth_scale = 0.0;  // units per metre; 0: not given
   double fps = 0.0;          // 0: not given
-  bool mirrored = false;     // images as a mirror shows them
+  bool mirrored = false;     // the images are mirrored
   std::string rotate = "auto";
   std::shared_ptr<std::set<std::string>> said = std::make_shared<std::set<std::string>>();
   // The preset chosen by the images' size; "": the camera is stated.

@@ -65,7 +65,7 @@ std::vector<recon::MotionClip> LoadMotion(const SurfaceArguments& a) {
   recon::MocapOptions options = a.mocap_options;
   options.stop = Interrupted;
   auto motion = recon::LoadMocap(a.mocap, options);
-  SayWarnings("surface", motion);
+  PrintWarnings("surface", motion);
   EndIfInterrupted();
   return motion;
 }

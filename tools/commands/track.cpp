@@ -79,7 +79,7 @@ struct Destinations {
     trace.Write(bodies);
     pictures.Take(waiting.front(), bodies);
     if (viewer != nullptr) {
-      viewer::Moment moment = viewer::MomentOf(waiting.front(), bodies);
+      viewer::Moment moment = viewer::MakeMoment(waiting.front(), bodies);
       moment.dropped = run.dropped;
       moment.is_upright = tracker.quarter_turns() == 0;
       moment.latency_ms = bodies.ms.total;
@@ -90,8 +90,9 @@ struct Destinations {
   }
 };
 
-void SayMount() {
-  Say("ossa track: the camera looks down from the ceiling: people are found by their heads, joints "
+void PrintMount() {
+  PrintError(
+      "ossa track: the camera looks down from the ceiling: people are found by their heads, joints "
       "by body_ceiling.ossa (--mount level: it does not)\n");
 }
 
@@ -122,7 +123,7 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
     gone = false;
     const auto bodies = tracker.TrackWithLag(read.frame);
     const bool hung = std::exchange(hangs, tracker.mount() == tracker::Mount::kCeiling);
-    if (hangs && !hung && !options.quiet) SayMount();
+    if (hangs && !hung && !options.quiet) PrintMount();
     ++tracked;
     to.waiting.push_back(std::move(read.frame));
     if (bodies) to.Deliver(*bodies, run);
@@ -137,8 +138,8 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
 }
 
 /// Delivers frames held by the lag also after the source failed.
-void TrackWhatComes(depth::FrameSource& source, tracker::Tracker& tracker,
-                    const TrackOptions& options, Destinations& to, Run& run) {
+void TrackAvailableFrames(depth::FrameSource& source, tracker::Tracker& tracker,
+                          const TrackOptions& options, Destinations& to, Run& run) {
   try {
     TrackToEnd(source, tracker, options, to, run);
   } catch (const DiskFull&) {
@@ -153,7 +154,7 @@ void TrackWhatComes(depth::FrameSource& source, tracker::Tracker& tracker,
 void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
               Destinations& to, Run& run) {
   try {
-    TrackWhatComes(source, tracker, options, to, run);
+    TrackAvailableFrames(source, tracker, options, to, run);
   } catch (const DiskFull& full) {
     run.full = full;
   }
@@ -204,8 +205,9 @@ void Report(const TrackOptions& options, const Run& run) {
   }
   if (run.ending == Ending::kUnplugged || run.ending == Ending::kSilent) {
     const char* what = run.ending == Ending::kUnplugged ? "unplugged" : "delivers no frames";
-    Say(fmt::format("ossa track: {}: the device {} for {:g} s: ending after {} frames\n",
-                    options.source.name, what, options.source.patience_s, run.stats.frames()));
+    PrintError(fmt::format("ossa track: {}: the device {} for {:g} s: ending after {} frames\n",
+                           options.source.name, what, options.source.patience_s,
+                           run.stats.frames()));
   }
   if (!options.quiet && options.json_stats != "-") {
     fmt::print("{} frames, {} dropped, {} reconnections\n", run.stats.frames(), run.dropped,
@@ -214,9 +216,9 @@ void Report(const TrackOptions& options, const Run& run) {
 }
 
 /// Objects of a scene need a floor: prints a line if none was detected.
-void SayMissingFloor(tracker::Tracker& tracker, const TrackOptions& options) {
+void PrintMissingFloor(tracker::Tracker& tracker, const TrackOptions& options) {
   if (tracker.scene() == nullptr || tracker.scene()->has_floor()) return;
-  Say(
+  PrintError(
       fmt::format("ossa track: {}: no floor was seen, so that no object appeared: expected "
                   "floor = [a, b, c, d] in the file\n",
                   options.mechanics.scene));
@@ -224,9 +226,9 @@ void SayMissingFloor(tracker::Tracker& tracker, const TrackOptions& options) {
 
 /// Without people the recording is empty or was read with wrong options: the images do not tell
 /// which.
-void SayNobody(const TrackOptions& options, const depth::Camera& camera, const Run& run) {
+void PrintNobodyFound(const TrackOptions& options, const depth::Camera& camera, const Run& run) {
   if (options.quiet || run.somebody || run.stats.frames() == 0) return;
-  Say(
+  PrintError(
       fmt::format("ossa track: {}: nobody was found, by a camera of f {:.0f} px: if somebody is in "
                   "view, see whether --camera, --depth-scale and --rotate are right\n",
                   options.source.name, camera.fx));
@@ -247,7 +249,7 @@ InputError InterruptedEarly(const TrackOptions& options, const Run& run) {
 }
 
 /// What is known of the people before the first frame.
-void KnowPeople(TrackOptions& options) {
+void SetKnownPeople(TrackOptions& options) {
   options.tracker.shapes = ReadPeople(options.fit, *options.tracker.models);
   if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);
 }
@@ -259,7 +261,7 @@ std::unique_ptr<viewer::Viewer> OpenViewer(const TrackOptions& options) {
   page.forest = options.tracker.models->forest;
   page.body = LoadSkin(options.files.surface, options.write.mesh);
   auto viewer = std::make_unique<viewer::Viewer>(page);
-  SayWhere(*viewer);
+  PrintUrls(*viewer);
   return viewer;
 }
 
@@ -283,11 +285,12 @@ void CheckComplete(const TrackOptions& options, const Run& run) {
 
 /// Finishes all outputs, even if some fail.
 void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
-  DoEach("track", {[&] { to.output.Finish(); }, [&] { to.pictures.Finish(); },
-                   [&] { Report(to.options, run); }, [&] { SayNobody(to.options, camera, run); },
-                   [&] { to.person.SayUnlikelyStature(to.options, camera); },
-                   [&] { SayMissingFloor(to.tracker, to.options); }, [&] { to.trace.Finish(); },
-                   [&] { to.person.Finish(to.options); }, [&] { CheckComplete(to.options, run); }});
+  DoEach("track",
+         {[&] { to.output.Finish(); }, [&] { to.pictures.Finish(); },
+          [&] { Report(to.options, run); }, [&] { PrintNobodyFound(to.options, camera, run); },
+          [&] { to.person.PrintUnlikelyStature(to.options, camera); },
+          [&] { PrintMissingFloor(to.tracker, to.options); }, [&] { to.trace.Finish(); },
+          [&] { to.person.Finish(to.options); }, [&] { CheckComplete(to.options, run); }});
   if (run.full) throw InputError(*run.full);  // of the viewer, since no output failed
 }
 
@@ -296,11 +299,11 @@ void FinishAll(Destinations& to, const depth::Camera& camera, const Run& run) {
 int Track(int argc, char** argv) {
   TrackOptions options = ParseTrackOptions(argc, argv);
   options.tracker.models = tracker::ModelSet::Load(options.files, options.tracker.method);
-  SayWarnings("track", options.tracker.models->warnings);
+  PrintWarnings("track", options.tracker.models->warnings);
   if (!options.more_sources.empty()) return TrackSeveral(options);
   FindCamera(
       options.source, [&] { return options.tracker; }, options.quiet);
-  KnowPeople(options);
+  SetKnownPeople(options);
   tracker::Tracker tracker(options.tracker);  // first: a device must not wait for it
   const auto source = OpenSource(options.source, options.quiet);
   FindUpright(tracker, *source, options.source, options.quiet);

@@ -57,7 +57,7 @@ void AddViewpointOptions(CLI::App& app, TrackOptions& options) {
 const std::map<std::string, std::string> kOldPostures = {{"looked", "refined"}};
 
 // Refined joints that were asked for are had with every method.
-void NeedRefinement(tracker::ModelFiles& files) {
+void RequireRefinement(tracker::ModelFiles& files) {
   const char* const shipped = tracker::FindShippedRefinement(files);
   if (files.refinement == "none" || (files.refinement.empty() && shipped == nullptr)) {
     throw UsageError(
@@ -70,11 +70,11 @@ void CheckRefinementIsRead(const TrackOptions& options) {
   const std::string& look = options.files.refinement;
   const bool is_read = RequireMethodInfo(options.tracker.method).refined;
   if (look.empty() || look == "none" || is_read || options.quiet) return;
-  SayNotRead("--refinement", options.tracker.method);
+  PrintNotRead("--refinement", options.tracker.method);
 }
 
 // Nobody waits for a recording's bodies, which are nearer to the truth and steadier with lag.
-int UsualLag(const TrackOptions& options) {
+int DefaultLag(const TrackOptions& options) {
   constexpr int kMost = 2;  // frames; measured: docs/benchmarks/reconstruction.md, frames of lag
   const bool smoothed = RequireMethodInfo(options.tracker.method).smoothed_in_files;
   return smoothed && !IsDevice(options.source.name) ? kMost : 0;
@@ -177,10 +177,11 @@ void CheckHasOutput(const TrackOptions& options) {
 }
 
 // No refusal: a file of defaults may have them for the runs that show a page.
-void SayUnreadPageOptions(const CLI::App& app, const TrackOptions& options) {
+void PrintUnreadPageOptions(const CLI::App& app, const TrackOptions& options) {
   if (options.view || options.quiet) return;
   for (const char* option : {"--port", "--listen", "--token"}) {
-    if (app.count(option) > 0) Say(fmt::format("ossa: {} is not read without --view\n", option));
+    if (app.count(option) > 0)
+      PrintError(fmt::format("ossa: {} is not read without --view\n", option));
   }
 }
 
@@ -193,7 +194,7 @@ void CheckMethod(const CLI::App& app, const TrackOptions& options) {
   CheckOneOf(method, options.files.database, options.files.prior);
 }
 
-FitNeeds NeedsOf(const TrackOptions& options) {
+FitNeeds GetFitNeeds(const TrackOptions& options) {
   return {options.files, options.tracker.method, options.mount, options.tracker.max_users};
 }
 
@@ -204,7 +205,7 @@ void CheckFiles(const TrackOptions& options) {
   CheckNotOtherKind("--json-stats", options.json_stats, ".json");
   CheckExtension("--trace", options.trace, ".jsonl");
   CheckNotOtherKind("--save-person", options.save_person, ".ossaperson");
-  CheckPeople(options.fit, options.save_person, NeedsOf(options));
+  CheckPeople(options.fit, options.save_person, GetFitNeeds(options));
   // A person file may be written over what was read of the same person.
   std::vector<std::string> inputs = options.Sources();
   inputs.push_back(options.mechanics.scene);
@@ -218,7 +219,7 @@ void CheckFiles(const TrackOptions& options) {
 tracker::TrackerOptions MakeTrackerOptions(const TrackOptions& options) {
   tracker::TrackerOptions made = options.tracker;
   made.turn = ChooseTurn(options.source);
-  made.lag = options.lag.value_or(UsualLag(options));
+  made.lag = options.lag.value_or(DefaultLag(options));
   if (options.fit.is_off()) made.fit.reset();
   made.physics = options.mechanics.on();
   made.mechanics = options.mechanics.build;
@@ -234,17 +235,17 @@ tracker::TrackerOptions MakeTrackerOptions(const TrackOptions& options) {
 }  // namespace
 
 TrackOptions ParseTrackOptions(int argc, char** argv) {
-  CLI::App app("Follow the people in any SOURCE and write their skeletons");
+  CLI::App app("Track the people in any SOURCE and write their skeletons");
   TrackOptions options;
   DeclareOptions(app, options);
   Parse(app, argc, argv);
   CheckSources(app, options);
   CheckHasOutput(options);
-  SayUnreadPageOptions(app, options);
+  PrintUnreadPageOptions(app, options);
   options.targets = ParseTargets(options.send);
   CheckMethod(app, options);
   if (options.posture == "refined") {
-    NeedRefinement(options.files);
+    RequireRefinement(options.files);
   } else {
     CheckRefinementIsRead(options);
   }
@@ -252,7 +253,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   options.write.has_page = options.view;
   CheckFiles(options);
   if (options.fit.fit == "on" || options.posture == "fitted") {
-    CheckFit(options.fit, NeedsOf(options));
+    CheckFit(options.fit, GetFitNeeds(options));
   }
   options.tracker = MakeTrackerOptions(options);
   return options;

@@ -42,7 +42,7 @@ class Pictures {
   void Finish() const;
 
  private:
-  void TakeForFolder(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies);
+  void WriteToFolder(const depth::DepthFrame& frame, const tracker::BodyFrame& bodies);
 
   std::string one_, folder_;
   int64_t in_folder_ = 0;  // pictures
@@ -61,7 +61,7 @@ class PersonKeeper {
   void Finish(const TrackOptions& options) const;
   /// For an assumed camera: prints, unless quiet, if the most fitted person has an implausible
   /// adult stature, and the presets with which it would be plausible.
-  void SayUnlikelyStature(const TrackOptions& options, const depth::Camera& camera) const;
+  void PrintUnlikelyStature(const TrackOptions& options, const depth::Camera& camera) const;
 
  private:
   struct Kept {

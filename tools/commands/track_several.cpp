@@ -115,8 +115,8 @@ void CheckFramesCame(const Cameras& cameras, std::span<const recon::SkeletonSequ
 }
 
 // "" on success.
-std::string WriteOrSayWhyNot(const std::filesystem::path& file,
-                             const recon::SkeletonSequence& recording) {
+std::string TryWriteSkeletons(const std::filesystem::path& file,
+                              const recon::SkeletonSequence& recording) {
   try {
     std::filesystem::create_directories(FolderOf(file));
     WriteSkeletonsThatFit(file, recording, {});
@@ -128,8 +128,8 @@ std::string WriteOrSayWhyNot(const std::filesystem::path& file,
 
 // Writes each camera's own skeletons into a folder beside the output, under the camera's name in
 // `ossa fuse --extrinsics`, so that long tracking is not lost if fusion fails. Prints the folder.
-std::string KeepUnfused(const TrackOptions& options,
-                        std::span<const recon::SkeletonSequence> recordings) {
+std::string WriteUnfused(const TrackOptions& options,
+                         std::span<const recon::SkeletonSequence> recordings) {
   std::filesystem::path folder = options.out.empty() ? options.fuse.save_extrinsics : options.out;
   folder.replace_extension(".cameras");
   const std::vector<std::string> names = recon::CameraNames(options.Sources());
@@ -137,7 +137,7 @@ std::string KeepUnfused(const TrackOptions& options,
   for (size_t k = 0; k < recordings.size(); ++k) {
     if (recordings[k].frames.empty()) continue;
     const std::string file = folder / (names[k] + ".jsonl");
-    const std::string why_not = WriteOrSayWhyNot(file, recordings[k]);
+    const std::string why_not = TryWriteSkeletons(file, recordings[k]);
     if (why_not.empty()) kept += (kept.empty() ? "" : ", ") + file;
     if (!why_not.empty()) failures += "; " + why_not;
   }
@@ -146,7 +146,8 @@ std::string KeepUnfused(const TrackOptions& options,
 }
 
 // Why frames are missing, to be printed before their number; "" if all are there.
-std::string WhyCutShort(const Cameras& cameras, const TrackOptions& options, int64_t frames) {
+std::string DescribeInterruption(const Cameras& cameras, const TrackOptions& options,
+                                 int64_t frames) {
   for (const auto& camera : cameras) {
     if (!camera->failure.empty()) return camera->failure + "; ";
   }
@@ -156,9 +157,9 @@ std::string WhyCutShort(const Cameras& cameras, const TrackOptions& options, int
 }
 
 // If too few frames came to find the extrinsics, that is reported instead.
-std::string WhyNotFused(const TrackOptions& options, const Cameras& cameras, int64_t frames,
-                        const std::string& failure) {
-  const std::string why = frames == 0 ? "" : WhyCutShort(cameras, options, frames);
+std::string DescribeFusionFailure(const TrackOptions& options, const Cameras& cameras,
+                                  int64_t frames, const std::string& failure) {
+  const std::string why = frames == 0 ? "" : DescribeInterruption(cameras, options, frames);
   if (why.empty()) return failure;
   const std::string of_all = FramesText(frames, FramesOf(*cameras.front(), options));
   return fmt::format("{}{} were tracked: {}", why, of_all, failure);
@@ -171,14 +172,14 @@ FusedRecordings FuseOrKeep(const TrackOptions& options, const Cameras& cameras,
     return FuseRecordings(options.fuse, options.Sources(), recordings, options.quiet);
   } catch (const std::exception& failure) {
     const auto frames = static_cast<int64_t>(recordings.front().frames.size());
-    const std::string why = WhyNotFused(options, cameras, frames, failure.what());
-    throw InputError(fmt::format("{}; {}", why, KeepUnfused(options, recordings)));
+    const std::string why = DescribeFusionFailure(options, cameras, frames, failure.what());
+    throw InputError(fmt::format("{}; {}", why, WriteUnfused(options, recordings)));
   }
 }
 
 // After the available results were written.
-void SayWhatIsMissing(const Cameras& cameras, const TrackOptions& options, int64_t frames) {
-  const std::string why = WhyCutShort(cameras, options, frames);
+void ReportMissingFrames(const Cameras& cameras, const TrackOptions& options, int64_t frames) {
+  const std::string why = DescribeInterruption(cameras, options, frames);
   if (why.empty()) return;
   throw InputError(why + FramesText(frames, FramesOf(*cameras.front(), options)) +
                    (options.out.empty() ? " were tracked" : " are in " + options.out));
@@ -192,10 +193,10 @@ int TrackSeveral(const TrackOptions& options) {
   for (const std::string& name : options.Sources()) cameras.push_back(OpenCamera(options, name));
   TrackCameras(cameras, options);
   const auto fused = FuseOrKeep(options, cameras, TakeSkeletons(cameras));
-  SayWarnings("track", fused.skeletons.warnings);
+  PrintWarnings("track", fused.skeletons.warnings);
   WriteFused("track", options.fuse, options.out, fused, write);
   const size_t frames = fused.skeletons.frames.size();
-  SayWhatIsMissing(cameras, options, static_cast<int64_t>(frames));
+  ReportMissingFrames(cameras, options, static_cast<int64_t>(frames));
   if (!options.quiet) fmt::print("{} frames of {} cameras\n", frames, cameras.size());
   return 0;
 }

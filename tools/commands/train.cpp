@@ -39,11 +39,11 @@ void ShowProgress(Progress* bar, const forest::TrainProgress& p) {
 }
 
 // The time of the levels grown in this run, which is not stored in a card.
-void SayRate(const forest::TrainSummary& summary) {
+void PrintRate(const forest::TrainSummary& summary) {
   if (summary.split_seconds <= 0) return;
   const auto evaluations = static_cast<double>(summary.evaluations);
-  Say(fmt::format("train: {} images, {:.3g} evaluations, {:.0f} M a second\n", summary.images,
-                  evaluations, 1e-6 * evaluations / summary.split_seconds));
+  PrintError(fmt::format("train: {} images, {:.3g} evaluations, {:.0f} M a second\n",
+                         summary.images, evaluations, 1e-6 * evaluations / summary.split_seconds));
 }
 
 // Constants: chosen by hand.
@@ -152,7 +152,7 @@ std::vector<std::string> FindDataUsedTwice(const TrainArguments& a) {
 }
 
 // The model within --max-megabytes.
-forest::ForestModel WithinLimit(const TrainArguments& a, const forest::ForestModel& model) {
+forest::ForestModel FitToSizeLimit(const TrainArguments& a, const forest::ForestModel& model) {
   return a.max_bytes ? forest::FitInto(model, *a.max_bytes) : model;
 }
 
@@ -160,7 +160,7 @@ forest::ForestModel WithinLimit(const TrainArguments& a, const forest::ForestMod
 void Write(const TrainArguments& a, const forest::ForestModel& model, std::string card) {
   forest::ForestData data = model.data();
   data.manifest = std::move(card);
-  forest::WriteForestModel(a.out, WithinLimit(a, forest::ForestModel(std::move(data))));
+  forest::WriteForestModel(a.out, FitToSizeLimit(a, forest::ForestModel(std::move(data))));
 }
 
 // With validation frames the trees also get proposals, so that they can be evaluated like a
@@ -196,32 +196,32 @@ void CheckTellsPeople(const forest::ForestModel& model, const TrainArguments& a)
   throw InputError(name + ": classes: expected our parts for --refinement, found others");
 }
 
-int LearnAgain(const TrainArguments& a) {
+int RelearnProposals(const TrainArguments& a) {
   const forest::ForestModel old = forest::ReadForestModel(a.trees_of);
   CheckTellsPeople(old, a);
   const TrainData data = OpenData(a);
   CheckSizes(a, data);
   const forest::ForestModel learned =
-      LearnJoints(a, WithinLimit(a, old), data.training, data.held_out);
-  Write(a, learned, RenewCard(learned, a, data.training));
+      LearnJoints(a, FitToSizeLimit(a, old), data.training, data.held_out);
+  Write(a, learned, UpdateCard(learned, a, data.training));
   return 0;
 }
 
 // A checkpoint is hours of work: it is neither deleted nor waited for without a message.
-void SayOfCheckpoint(const TrainArguments& a) {
+void PrintCheckpoint(const TrainArguments& a) {
   const bool is_there = fs::exists(a.checkpoint());
   if (a.quiet || is_there == a.options.resume) return;
   const char* what = is_there ? "left by a run that was cut off; without --resume this one begins "
                                 "anew and replaces it"
                               : "not there: nothing to go on from, this run begins anew";
-  Say(fmt::format("train: {}: {}\n", a.checkpoint().string(), what));
+  PrintError(fmt::format("train: {}: {}\n", a.checkpoint().string(), what));
 }
 
 // A rerun script of trainings skips the finished ones.
-bool IsThereAlready(const TrainArguments& a, const TrainData& data) {
+bool IsFinishedAlready(const TrainArguments& a, const TrainData& data) {
   if (!a.options.resume || fs::exists(a.checkpoint()) || !fs::exists(a.out)) return false;
   try {
-    return WasMadeBy(forest::ReadForestModel(a.out).manifest(), a, data);
+    return HasSameInputs(forest::ReadForestModel(a.out).manifest(), a, data);
   } catch (const InputError&) {
     return false;  // no model, or of another version
   }
@@ -231,11 +231,11 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   forest::TrainOptions& o = a->options;
   const TrainData data = OpenData(*a);
   CheckSizes(*a, data);
-  if (reducer.rank() == 0) SayWarnings("train", FindDataUsedTwice(*a));
-  if (IsThereAlready(*a, data)) {
+  if (reducer.rank() == 0) PrintWarnings("train", FindDataUsedTwice(*a));
+  if (IsFinishedAlready(*a, data)) {
     if (!a->quiet && reducer.rank() == 0) {
-      Say(fmt::format("train: {}: is there already, made by this command of this data\n",
-                      a->out.string()));
+      PrintError(fmt::format("train: {}: is there already, made by this command of this data\n",
+                             a->out.string()));
     }
     return 0;
   }
@@ -245,7 +245,7 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
     AtomicFile::CheckWritable(o.checkpoint);
     RemoveLeftoversOf(o.checkpoint);  // of runs that were killed while writing it or the model
     RemoveLeftoversOf(a->out);
-    SayOfCheckpoint(*a);
+    PrintCheckpoint(*a);
   }
   o.stop = Interrupted;
   Progress bar("train", a->quiet || reducer.rank() != 0);
@@ -254,8 +254,8 @@ int TrainOnData(TrainArguments* a, const forest::Reducer& reducer) {
   const forest::ForestModel trees =
       forest::Train(data.training, tools::BodyVocabulary(), o, reducer, &summary);
   if (reducer.rank() != 0) return 0;
-  if (!a->quiet) SayRate(summary);
-  Write(*a, LearnJoints(*a, WithinLimit(*a, trees), data.training, data.held_out),
+  if (!a->quiet) PrintRate(summary);
+  Write(*a, LearnJoints(*a, FitToSizeLimit(*a, trees), data.training, data.held_out),
         MakeCard(*a, data, summary));
   fs::remove(o.checkpoint);
   return 0;
@@ -268,7 +268,7 @@ int Train(int argc, char** argv) {
   TrainArguments arguments = ParseTrainOptions(argc, argv);
   if (!arguments.import_pcl.empty()) return ImportPcl(arguments);
   try {
-    if (!arguments.trees_of.empty()) return LearnAgain(arguments);
+    if (!arguments.trees_of.empty()) return RelearnProposals(arguments);
     return TrainOnData(&arguments, *reducer);
   } catch (const TrainInterrupted& interruption) {
     const fs::path checkpoint = arguments.checkpoint();

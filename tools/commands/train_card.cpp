@@ -99,7 +99,7 @@ std::string DescribeCommand(int argc, char** argv) {
   return LineWithoutFolders(line);
 }
 
-bool WasMadeBy(const std::string& card, const TrainArguments& a, const TrainData& data) {
+bool HasSameInputs(const std::string& card, const TrainArguments& a, const TrainData& data) {
   const auto json = Json::parse(card, nullptr, false);
   return json.is_object() && json.value("command", Json()) == Json(a.command) &&
          json.value("data_hash", Json()) == Json(HashOf(a, data));
@@ -123,8 +123,8 @@ std::string MakeCard(const TrainArguments& a, const TrainData& data,
   return tools::JsonText(card);
 }
 
-std::string RenewCard(const forest::ForestModel& learned, const TrainArguments& a,
-                      const tools::PersonSource& source) {
+std::string UpdateCard(const forest::ForestModel& learned, const TrainArguments& a,
+                       const tools::PersonSource& source) {
   auto card = Json::parse(learned.manifest(), nullptr, false);
   if (!card.is_object()) return learned.manifest();
   const Manifests refinement = RefinementManifests(a);

@@ -19,7 +19,7 @@ struct TrainData {
 };
 
 /// Whether the card is of a forest made by this command from this data.
-bool WasMadeBy(const std::string& card, const TrainArguments& a, const TrainData& data);
+bool HasSameInputs(const std::string& card, const TrainArguments& a, const TrainData& data);
 
 /// The card of a forest trained on the data, JSON text.
 std::string MakeCard(const TrainArguments& a, const TrainData& data,
@@ -27,7 +27,7 @@ std::string MakeCard(const TrainArguments& a, const TrainData& data,
 
 /// The card of a model whose joints were learned again on `source`: the earlier card, extended;
 /// unchanged if it is not a JSON object.
-std::string RenewCard(const forest::ForestModel& learned, const TrainArguments& a,
-                      const tools::PersonSource& source);
+std::string UpdateCard(const forest::ForestModel& learned, const TrainArguments& a,
+                       const tools::PersonSource& source);
 
 }  // namespace ossa::commands

@@ -41,14 +41,14 @@ std::shared_ptr<const recon::BodyMesh> LoadSkin(const std::string& surface,
                                                 const std::string& mesh) {
   if (surface == "none" || mesh == "none") return nullptr;
   if (surface.empty() || !mesh.empty()) return tracker::LoadBodyMesh(surface, mesh);
-  Say(fmt::format(
+  PrintError(fmt::format(
       "ossa: --surface {}: the page shows no skin of it: --mesh FILE.ossamesh names one\n",
       surface));
   return nullptr;
 }
 
-void SayWhere(const viewer::Viewer& viewer) {
-  for (const std::string& url : viewer.urls()) Say(fmt::format("watch at {}\n", url));
+void PrintUrls(const viewer::Viewer& viewer) {
+  for (const std::string& url : viewer.urls()) PrintError(fmt::format("watch at {}\n", url));
 }
 
 }  // namespace ossa::commands

@@ -30,6 +30,6 @@ std::shared_ptr<const recon::BodyMesh> LoadSkin(const std::string& surface,
                                                 const std::string& mesh);
 
 /// Prints the address of the page to stderr.
-void SayWhere(const viewer::Viewer& viewer);
+void PrintUrls(const viewer::Viewer& viewer);
 
 }  // namespace ossa::commands

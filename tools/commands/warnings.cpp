@@ -6,29 +6,29 @@
 
 namespace ossa::commands {
 
-void SayWarnings(std::string_view command, const std::vector<recon::SkeletonClip>& clips) {
+void PrintWarnings(std::string_view command, const std::vector<recon::SkeletonClip>& clips) {
   std::vector<std::string> all;
   for (const recon::SkeletonClip& clip : clips) {
     all.insert(all.end(), clip.sequence.warnings.begin(), clip.sequence.warnings.end());
   }
-  SayWarnings(command, all);
+  PrintWarnings(command, all);
 }
 
-void SayWarnings(std::string_view command, const std::vector<recon::MotionClip>& clips) {
+void PrintWarnings(std::string_view command, const std::vector<recon::MotionClip>& clips) {
   std::vector<std::string> all;
   for (const recon::MotionClip& clip : clips) {
     all.insert(all.end(), clip.warnings.begin(), clip.warnings.end());
   }
-  SayWarnings(command, all);
+  PrintWarnings(command, all);
 }
 
-void SayWarnings(std::string_view command, const std::vector<std::string>& warnings) {
+void PrintWarnings(std::string_view command, const std::vector<std::string>& warnings) {
   constexpr size_t kMostSaid = 20;  // by hand
   for (size_t i = 0; i < warnings.size() && i < kMostSaid; ++i) {
-    Say(fmt::format("{}: warning: {}\n", command, warnings[i]));
+    PrintError(fmt::format("{}: warning: {}\n", command, warnings[i]));
   }
   if (warnings.size() > kMostSaid) {
-    Say(fmt::format("{}: {} more warnings\n", command, warnings.size() - kMostSaid));
+    PrintError(fmt::format("{}: {} more warnings\n", command, warnings.size() - kMostSaid));
   }
 }
 

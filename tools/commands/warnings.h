@@ -9,8 +9,8 @@ namespace ossa::commands {
 
 /// Prints the readers' warnings to stderr, a line each: "COMMAND: warning: FILE: ...". Also when
 /// quiet, because they concern the result. After the first twenty only the number of the others.
-void SayWarnings(std::string_view command, const std::vector<recon::SkeletonClip>& clips);
-void SayWarnings(std::string_view command, const std::vector<recon::MotionClip>& clips);
-void SayWarnings(std::string_view command, const std::vector<std::string>& warnings);
+void PrintWarnings(std::string_view command, const std::vector<recon::SkeletonClip>& clips);
+void PrintWarnings(std::string_view command, const std::vector<recon::MotionClip>& clips);
+void PrintWarnings(std::string_view command, const std::vector<std::string>& warnings);
 
 }  // namespace ossa::commands

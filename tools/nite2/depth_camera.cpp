@@ -27,7 +27,7 @@ float FieldOfView(OniStreamHandle stream, int property) {
                                                                                     : 0.0F;
 }
 
-bool AskMirrored(OniStreamHandle stream) {
+bool ReadMirroring(OniStreamHandle stream) {
   OniBool mirrored = FALSE;
   int size = sizeof(mirrored);
   return oniStreamGetProperty(stream, ONI_STREAM_PROPERTY_MIRRORING, &mirrored, &size) ==
@@ -104,7 +104,7 @@ void DepthCamera::Open(OniDeviceHandle device) {
   OniDeviceInfo info{};
   Require(oniDeviceGetInfo(device_, &info), "asking for the device");
   uri_ = info.uri;
-  device_callbacks_.deviceDisconnected = &DepthCamera::OnGone;
+  device_callbacks_.deviceDisconnected = &DepthCamera::OnDisconnected;
   Require(oniRegisterDeviceCallbacks(&device_callbacks_, this, &device_callback_),
           "watching the device");
   Require(oniDeviceCreateStream(device_, ONI_SENSOR_DEPTH, &stream_), "opening its depth stream");
@@ -114,7 +114,7 @@ void DepthCamera::Open(OniDeviceHandle device) {
 
 void DepthCamera::Close() {
   if (generation_ != OniThread::Instance().generation()) return;
-  StopTelling();
+  RemoveFrameCallback();
   if (stream_ != nullptr) {
     oniStreamStop(stream_);
     oniStreamDestroy(stream_);
@@ -123,7 +123,7 @@ void DepthCamera::Close() {
   if (device_ != nullptr) oniDeviceClose(device_);
 }
 
-void ONI_CALLBACK_TYPE DepthCamera::OnGone(const OniDeviceInfo* info, void* camera) {
+void ONI_CALLBACK_TYPE DepthCamera::OnDisconnected(const OniDeviceInfo* info, void* camera) {
   auto* self = static_cast<DepthCamera*>(camera);
   if (self->uri_ == info->uri) self->gone_ = true;
 }
@@ -135,7 +135,7 @@ void ONI_CALLBACK_TYPE DepthCamera::OnFrame(OniStreamHandle, void* camera) {
   in_call_of = outer;
 }
 
-bool DepthCamera::InCall() const { return in_call_of == this; }
+bool DepthCamera::IsInCallback() const { return in_call_of == this; }
 
 void DepthCamera::ReadGeometry() {
   constexpr float kLeast_rad = 0.01F, kMost_rad = 3.1F;  // by hand: a field of view at all
@@ -145,7 +145,7 @@ void DepthCamera::ReadGeometry() {
           "asking for the video mode");
   Geometry seen{mode.resolutionX, mode.resolutionY,
                 FieldOfView(stream_, ONI_STREAM_PROPERTY_HORIZONTAL_FOV),
-                FieldOfView(stream_, ONI_STREAM_PROPERTY_VERTICAL_FOV), AskMirrored(stream_)};
+                FieldOfView(stream_, ONI_STREAM_PROPERTY_VERTICAL_FOV), ReadMirroring(stream_)};
   if (std::min(seen.across_rad, seen.down_rad) < kLeast_rad ||
       std::max(seen.across_rad, seen.down_rad) > kMost_rad) {
     const depth::Camera kinect = depth::KinectV1Camera(seen.width, seen.height);
@@ -194,8 +194,8 @@ std::optional<CameraFrame> DepthCamera::Next(std::chrono::milliseconds timeout) 
   return frame;
 }
 
-void DepthCamera::TellOfFrames(std::function<void()> on_frame) {
-  StopTelling();
+void DepthCamera::SetFrameCallback(std::function<void()> on_frame) {
+  RemoveFrameCallback();
   on_frame_ = std::move(on_frame);
   OniThread::Instance().Run([this] {
     Require(
@@ -204,8 +204,8 @@ void DepthCamera::TellOfFrames(std::function<void()> on_frame) {
   });
 }
 
-void DepthCamera::StopTelling() {
-  if (InCall()) return;
+void DepthCamera::RemoveFrameCallback() {
+  if (IsInCallback()) return;
   OniThread::Instance().Run([this] {
     if (frame_callback_ == nullptr) return;
     oniStreamUnregisterNewFrameCallback(stream_, frame_callback_);

@@ -52,12 +52,13 @@ class DepthCamera {
   /// Whether the device was unplugged.
   bool is_gone() const { return gone_; }
 
-  /// Called on a thread of OpenNI2 for every frame that comes, until the next call or StopTelling.
-  void TellOfFrames(std::function<void()> on_frame);
+  /// Called on a thread of OpenNI2 for every frame that comes, until the next call or
+  /// RemoveFrameCallback.
+  void SetFrameCallback(std::function<void()> on_frame);
   /// Returns when no call is under way, unless on the very thread.
-  void StopTelling();
+  void RemoveFrameCallback();
   /// Whether this thread is in such a call: OpenNI2 cannot end that thread from itself.
-  bool InCall() const;
+  bool IsInCallback() const;
 
   /// What OpenNI2's own conversions between millimetres and pixels go by.
   struct Geometry {
@@ -75,7 +76,7 @@ class DepthCamera {
   void Close();
   void ReadGeometry();
   double TimeOf(const OniFrame& frame);
-  static void ONI_CALLBACK_TYPE OnGone(const OniDeviceInfo* info, void* camera);
+  static void ONI_CALLBACK_TYPE OnDisconnected(const OniDeviceInfo* info, void* camera);
   static void ONI_CALLBACK_TYPE OnFrame(OniStreamHandle stream, void* camera);
 
   OniDeviceHandle device_ = nullptr;

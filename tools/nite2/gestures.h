@@ -15,7 +15,7 @@ struct HandSample {
   Eigen::Vector3d hand_m, elbow_m, shoulder_m;
 };
 
-/// What makes a gesture; by hand.
+/// Thresholds of gestures; by hand.
 struct GestureOptions {
   double swing_m = 0.08;  // a wave's least way between two turns
   int swings = 4;         // turns within ...
@@ -29,14 +29,14 @@ struct GestureOptions {
   double raise_s = 0.3;   // how long it stays there
 };
 
-/// Looks for one gesture in the way of one hand.
+/// Detects one gesture in the path of one hand.
 class GestureDetector {
  public:
   explicit GestureDetector(NiteGestureType type, const GestureOptions& options = {})
       : type_(type), options_(options) {}
 
-  /// The next moment: NEW where a gesture may begin, IN_PROGRESS, or COMPLETED; none where there is
-  /// no sign of it.
+  /// Adds a sample: NEW where a gesture may begin, IN_PROGRESS, or COMPLETED; none without a sign
+  /// of it.
   std::optional<NiteGestureState> Step(const HandSample& sample);
 
  private:

@@ -39,8 +39,8 @@ class HandTracker final : public LiveTracker {
   std::unique_ptr<Stored> Make(CameraFrame seen);
   std::vector<Eigen::Vector3d> WaitedFor() const;
 
-  LoneHands lone_;              // under `reading_`
-  mutable std::mutex wishing_;  // guards what follows
+  LoneHands lone_;                    // under `reading_`
+  mutable std::mutex request_mutex_;  // guards what follows
   FollowedHands followed_;
   GestureWatch watch_;
   std::set<NiteGestureType> gestures_;

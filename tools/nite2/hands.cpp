@@ -52,8 +52,8 @@ std::vector<Eigen::Vector3d> FollowedHands::WaitedFor() const {
   return places_m;
 }
 
-// The same one; else the nearest, as a body comes into view behind a lone hand or goes. A body's
-// hand is never taken for another body's or for its other one.
+// The same hand; else the nearest, as a body comes into view behind a lone hand or leaves. A body's
+// hand is never confused with another body's or its other hand.
 const SeenHand* FollowedHands::Find(const Hand& hand, const std::vector<SeenHand>& seen) const {
   const SeenHand* found = nullptr;
   double nearest_m = options_.near_m;

@@ -14,7 +14,7 @@ namespace ossa::nite2 {
 
 // Constants: by hand.
 
-/// A hand that is in view: whose, and where.
+/// A hand in view.
 struct SeenHand {
   int body_id = 0;          // below 0: one without a body
   bool left = false;        // unknown and false without a body
@@ -22,24 +22,24 @@ struct SeenHand {
   bool moves_count = true;  // whether its way makes gestures
 };
 
-/// The hands of everybody in the frame that are seen or can be told from what is seen.
+/// The tracked and inferred hands of all people in the frame.
 std::vector<SeenHand> CollectHands(const tracker::BodyFrame& frame);
 
-/// What is done with hands; by hand.
+/// Options of following hands; by hand.
 struct HandOptions {
   double near_m = 0.3;      // how far from where it was asked for a hand may be
   double patience_s = 0.5;  // how long a hand may be out of sight before it is lost
   double border = 0.05;  // fraction of the image's width from its border on that counts as touching
 };
 
-/// Hands that are followed by id, as a program asked for them.
+/// Hands followed by id, as requested by a program.
 class FollowedHands {
  public:
-  /// An id for a hand about there, in camera space; the next step looks for it.
+  /// An id for a hand near this position, in camera space; the next step searches for it.
   NiteHandId Start(const Eigen::Vector3d& place_m);
   void Stop(NiteHandId id) { hands_.erase(id); }
   void StopAll() { hands_.clear(); }
-  /// Where hands are that were asked for and not met yet, camera space.
+  /// Positions of requested hands that were not found yet, camera space.
   std::vector<Eigen::Vector3d> WaitedFor() const;
 
   /// All of them after a frame; one that is lost is told of once. `smoothing`: part of the last

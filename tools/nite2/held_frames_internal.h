@@ -13,9 +13,9 @@ namespace ossa::nite2 {
 inline constexpr size_t kRetired = 8;     // frames kept after their end, for who still looks at one
 inline constexpr size_t kHalfHeld = 120;  // frames that were released too seldom: four seconds
 
-/// The frames that a program holds, counted. Of what it does not hold it says so: frames released
-/// twice, or after their tracker. `Stored` has a member `frame`, what the program sees, and
-/// `delivered`, the depth frame.
+/// The frames that a program holds, with reference counts. Unknown frames are reported: those
+/// released twice, or after their tracker. `Stored` has a member `frame`, what the program sees,
+/// and `delivered`, the depth frame.
 ///
 /// The PyPI package openni takes two references to every frame and releases one: a frame that was
 /// released at least once stays only among the newest kHalfHeld of its kind, or memory would run

@@ -3,7 +3,7 @@
 
 #include "tools/tracker/tracker.h"
 
-/// What ossa::tracker says, in NiTE's words: pure functions from values to values.
+/// Conversions of results of ossa::tracker to NiTE's types: pure functions.
 namespace ossa::nite2 {
 
 /// Camera space (metres, x to the sensor's left) as millimetres with x to the right of the image as

@@ -30,7 +30,7 @@ LiveTracker::LiveTracker(OniDeviceHandle device, const tracker::ModelSet& models
 
 LiveTracker::~LiveTracker() {
   Close();
-  if (!camera_->InCall()) return;
+  if (!camera_->IsInCallback()) return;
   // Closed by its own callback, on the camera's thread: that must come to its end first.
   OniThread::Instance().Post(
       [camera = std::shared_ptr<DepthCamera>(std::move(camera_))]() mutable { camera.reset(); });
@@ -40,9 +40,9 @@ bool LiveTracker::InCallback() { return callbacks_deep > 0; }
 
 void LiveTracker::Close() {
   closing_ = true;
-  if (camera_->InCall()) return;
+  if (camera_->IsInCallback()) return;
   const std::lock_guard lock(watching_);
-  camera_->StopTelling();
+  camera_->RemoveFrameCallback();
   told_ = false;
 }
 
@@ -54,8 +54,8 @@ bool LiveTracker::AddCallback(const Callback& callback) {
   }
   const std::lock_guard lock(watching_);
   if (!told_) {
-    camera_->TellOfFrames([weak = weak_from_this()] {
-      if (const auto self = weak.lock()) self->TellAll();
+    camera_->SetFrameCallback([weak = weak_from_this()] {
+      if (const auto self = weak.lock()) self->CallCallbacks();
     });
   }
   told_ = true;
@@ -69,7 +69,7 @@ void LiveTracker::RemoveCallback(const void* key) {
                    callbacks_.end());
 }
 
-void LiveTracker::TellAll() {
+void LiveTracker::CallCallbacks() {
   if (closing_) return;
   const std::lock_guard lock(telling_);
   const auto callbacks = callbacks_;

@@ -18,8 +18,8 @@ struct Callback {
   void* cookie = nullptr;
 };
 
-/// What user and hand trackers share: a camera, people in its images, and whom to tell of frames.
-/// Frames are read by whoever asks for one, on that thread. All members may be called from any
+/// Shared by user and hand trackers: a camera, people in its images, and callbacks for frames.
+/// Frames are read on the thread that requests one. All members may be called from any
 /// thread, also from a callback.
 class LiveTracker : public std::enable_shared_from_this<LiveTracker> {
  public:
@@ -33,7 +33,7 @@ class LiveTracker : public std::enable_shared_from_this<LiveTracker> {
   /// Whether this thread is in a callback of any tracker.
   static bool InCallback();
   bool AddCallback(const Callback& callback);
-  /// Returns when the callback is not running, unless it is the one that asks.
+  /// Returns when the callback is not running, unless called from it.
   void RemoveCallback(const void* key);
   /// Between millimetres and pixels of the whole image, as OpenNI2 does it; false where it cannot.
   bool ToPixel(float x, float y, float z, float* pixel_x, float* pixel_y) const;
@@ -48,7 +48,7 @@ class LiveTracker : public std::enable_shared_from_this<LiveTracker> {
   tracker::Tracker people_;
 
  private:
-  void TellAll();
+  void CallCallbacks();
 
   std::unique_ptr<DepthCamera> camera_;
   std::atomic<bool> closing_ = false;

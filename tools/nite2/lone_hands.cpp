@@ -89,7 +89,7 @@ struct Piece {
   int cut = 0;               // of them: where the surface goes on beyond the ball
 };
 
-Piece Grow(const Cells& cells, size_t seed, double radius_m) {
+Piece GrowRegion(const Cells& cells, size_t seed, double radius_m) {
   Piece piece;
   std::vector<bool> taken(cells.count());
   taken[seed] = true;
@@ -126,14 +126,14 @@ struct HandAndElbow {
 // The hand of the arm that a cell belongs to, if that is one.
 std::optional<HandAndElbow> FindHandOf(const Cells& cells, size_t seed,
                                        const LoneHandOptions& options) {
-  const Piece arm = Grow(cells, seed, options.arm_m);
+  const Piece arm = GrowRegion(cells, seed, options.arm_m);
   size_t tip = seed;
   // Without an end the arm points at the sensor, or is out of view.
   const Eigen::Vector3d elbow_m = ComputeMean(cells, arm.ends.empty() ? arm.cells : arm.ends);
   for (const size_t cell : arm.cells) {
     if ((cells[cell] - elbow_m).norm() > (cells[tip] - elbow_m).norm()) tip = cell;
   }
-  const Piece hand = Grow(cells, tip, options.hand_m);
+  const Piece hand = GrowRegion(cells, tip, options.hand_m);
   double area_m2 = 0.0;
   for (const size_t cell : hand.cells) area_m2 += cells.Area_m2(cell);
   if (area_m2 < options.least_m2 || area_m2 > options.most_m2) return std::nullopt;
@@ -141,8 +141,8 @@ std::optional<HandAndElbow> FindHandOf(const Cells& cells, size_t seed,
   return HandAndElbow{ComputeMean(cells, hand.cells), elbow_m};
 }
 
-// Where a hand may be: of each connected surface what is nearest to the sensor, and the top.
-std::vector<size_t> Outstanding(const Cells& cells) {
+// Candidates for hands: the nearest point to the sensor and the top of each connected surface.
+std::vector<size_t> FindCandidates(const Cells& cells) {
   std::vector<size_t> found;
   std::vector<bool> taken(cells.count());
   for (size_t seed = 0; seed < cells.count(); ++seed) {
@@ -171,9 +171,9 @@ bool IsNearAny(const Eigen::Vector3d& place_m, const std::vector<SeenHand>& hand
 
 }  // namespace
 
-// The gestures are told by a shoulder, which is not in view: one is assumed behind the hand.
-SeenHand LoneHands::Seen(Hand& hand, const Eigen::Vector3d& place_m, const Eigen::Vector3d& elbow_m,
-                         double time_s) const {
+// Gestures are defined relative to a shoulder, which is not in view: it is assumed behind the hand.
+SeenHand LoneHands::UpdateHand(Hand& hand, const Eigen::Vector3d& place_m,
+                               const Eigen::Vector3d& elbow_m, double time_s) const {
   const double part = std::min(1.0, std::max(0.0, time_s - hand.seen_s) / options_.settle_s);
   hand.settled_m += part * (place_m - hand.settled_m);
   hand.place_m = place_m;
@@ -204,7 +204,7 @@ std::vector<SeenHand> LoneHands::Step(const depth::DepthFrame& image,
     if (!found || (found->hand_m - hand.place_m).norm() > most_m || !is_free(found->hand_m)) {
       continue;
     }
-    seen.push_back(Seen(hand, found->hand_m, found->elbow_m, bodies.time_s));
+    seen.push_back(UpdateHand(hand, found->hand_m, found->elbow_m, bodies.time_s));
     still_there.push_back(hand);
   }
   hands_ = std::move(still_there);
@@ -212,13 +212,13 @@ std::vector<SeenHand> LoneHands::Step(const depth::DepthFrame& image,
   for (const Eigen::Vector3d& place_m : asked_m) {
     if (const auto seed = cells.Nearest(place_m, options_.near_m)) seeds.push_back(*seed);
   }
-  const std::vector<size_t> outstanding = Outstanding(cells);
+  const std::vector<size_t> outstanding = FindCandidates(cells);
   seeds.insert(seeds.end(), outstanding.begin(), outstanding.end());
   for (const size_t seed : seeds) {
     const auto found = FindHandOf(cells, seed, options_);
     if (!found || !is_free(found->hand_m)) continue;
     Hand hand{--last_id_, found->hand_m, found->hand_m, bodies.time_s, bodies.time_s};
-    seen.push_back(Seen(hand, found->hand_m, found->elbow_m, bodies.time_s));
+    seen.push_back(UpdateHand(hand, found->hand_m, found->elbow_m, bodies.time_s));
     hands_.push_back(hand);
   }
   return seen;

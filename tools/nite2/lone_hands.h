@@ -10,7 +10,7 @@ namespace ossa::nite2 {
 
 // Constants: by hand.
 
-/// What of the image may be a hand without a body; by hand.
+/// Thresholds for hands without a body; by hand.
 struct LoneHandOptions {
   int across = 160;          // cells from the image's left to its right that are looked at
   double farthest_m = 1.5;   // whoever stands farther off is in view from the waist up
@@ -30,9 +30,9 @@ struct LoneHandOptions {
   double above_m = 0.15;     // that shoulder above where the hand has been of late
 };
 
-/// Hands before the sensor that no body brings, followed by depth alone: somebody's of whom only an
-/// arm is in view, or who stands too near. A hand is the free end of a surface: what lies within a
-/// hand's length of it goes on only at a wrist. A thing of that shape passes for one.
+/// Hands without a detected body, followed by depth alone: of a person of whom only an arm is in
+/// view, or who stands too near. A hand is the free end of a surface that continues only at a wrist
+/// within a hand's length. An object of that shape is mistaken for one.
 class LoneHands {
  public:
   /// Those of this frame, with body ids below 0, the same from frame to frame. `of_bodies`: the
@@ -49,8 +49,8 @@ class LoneHands {
     Eigen::Vector3d settled_m;  // where it has been of late
     double seen_s = 0.0, since_s = 0.0;
   };
-  SeenHand Seen(Hand& hand, const Eigen::Vector3d& place_m, const Eigen::Vector3d& elbow_m,
-                double time_s) const;
+  SeenHand UpdateHand(Hand& hand, const Eigen::Vector3d& place_m, const Eigen::Vector3d& elbow_m,
+                      double time_s) const;
 
   LoneHandOptions options_;
   std::vector<Hand> hands_;

@@ -7,7 +7,7 @@
 
 namespace ossa::nite2 {
 
-/// The one thread that opens and closes what is OpenNI2's.
+/// The one thread that opens and closes objects of OpenNI2.
 class OniThread {
  public:
   static OniThread& Instance() {
@@ -15,9 +15,9 @@ class OniThread {
     return *instance;
   }
 
-  /// Does it there and waits; throws what it throws.
+  /// Runs the task on the thread and waits; rethrows its exception.
   void Run(const std::function<void()>& task) { thread_.Run(task); }
-  /// Does it there some time, after what was asked for before.
+  /// Queues the task.
   void Post(std::function<void()> task) { thread_.Post(std::move(task)); }
   /// How often OpenNI2 was shut down: what is older is gone with it. To be compared on the thread.
   int generation() const { return generation_; }

@@ -13,8 +13,8 @@
 
 namespace ossa::nite2 {
 
-/// The trackers of one kind that a program has open, by handles that are never used again: an old
-/// one is told from a new one.
+/// The open trackers of one kind, by handles that are never reused, so that old handles are
+/// detected.
 template <typename Tracker>
 class OpenTrackers {
  public:

@@ -23,8 +23,8 @@ struct PoseOptions {
 bool ShowsPose(NitePoseType type, const recon::Posture& posture_m, const Eigen::Vector3d& up,
                bool held, const PoseOptions& options = {});
 
-/// What comes after a state of NitePoseState when the pose is shown, or not: one frame of ENTER,
-/// then IN_POSE; one of EXIT, then DETECTING.
+/// The next NitePoseState when the pose is shown, or not: one frame of ENTER, then IN_POSE; one of
+/// EXIT, then DETECTING.
 NitePoseState NextPoseState(NitePoseState state, bool shown);
 
 /// Whether the state is one of a pose that is shown.

@@ -14,15 +14,15 @@ NiteStatus UserTracker::Read(Frame** frame) {
 }
 
 std::unique_ptr<UserTracker::Stored> UserTracker::Make(CameraFrame seen) {
-  UserWishes wishes;
+  UserWishes requests;
   {
-    const std::lock_guard lock(wishing_);
-    wishes = wishes_;
+    const std::lock_guard lock(request_mutex_);
+    requests = requests_;
   }
-  people_.ChooseUsers(users_.BodiesWanted(wishes));
+  people_.ChooseUsers(users_.BodiesWanted(requests));
   const tracker::BodyFrame bodies = people_.Track(seen.image);
   auto stored = std::make_unique<Stored>();
-  stored->users = users_.Step(bodies, seen.image.depth_mm, wishes, seen.mirrored);
+  stored->users = users_.Step(bodies, seen.image.depth_mm, requests, seen.mirrored);
   stored->map = MakeUserMap(bodies.users, seen.mirrored);
   Frame& frame = stored->frame;
   frame.userCount = static_cast<int>(stored->users.size());
@@ -37,15 +37,15 @@ std::unique_ptr<UserTracker::Stored> UserTracker::Make(CameraFrame seen) {
     frame.floor = FloorToNite(*bodies.floor, seen.mirrored);
   }
   stored->delivered = std::move(seen.delivered);
-  const std::lock_guard lock(wishing_);
+  const std::lock_guard lock(request_mutex_);
   known_.clear();
   for (const NiteUserData& user : stored->users) {
     if (user.state != NITE_USER_STATE_LOST) {
       known_.insert(user.id);
       continue;
     }
-    wishes_.skeletons.erase(user.id);  // whoever gets the id next has not been asked for
-    wishes_.poses.erase(user.id);
+    requests_.skeletons.erase(user.id);  // whoever gets the id next has not been asked for
+    requests_.poses.erase(user.id);
   }
   return stored;
 }
@@ -66,56 +66,56 @@ std::vector<NiteUserId> UserTracker::MakeUserMap(const depth::Image<uint8_t>& us
   return map;
 }
 
-bool UserTracker::Knows(NiteUserId id) const { return known_.count(id) > 0; }
+bool UserTracker::IsKnown(NiteUserId id) const { return known_.count(id) > 0; }
 
 NiteStatus UserTracker::StartSkeleton(NiteUserId id) {
-  const std::lock_guard lock(wishing_);
-  if (!Knows(id)) return NITE_STATUS_BAD_USER_ID;
-  wishes_.skeletons.insert(id);
+  const std::lock_guard lock(request_mutex_);
+  if (!IsKnown(id)) return NITE_STATUS_BAD_USER_ID;
+  requests_.skeletons.insert(id);
   return NITE_STATUS_OK;
 }
 
 void UserTracker::StopSkeleton(NiteUserId id) {
-  const std::lock_guard lock(wishing_);
-  wishes_.skeletons.erase(id);
+  const std::lock_guard lock(request_mutex_);
+  requests_.skeletons.erase(id);
 }
 
 bool UserTracker::IsTracking(NiteUserId id) const {
-  const std::lock_guard lock(wishing_);
-  return wishes_.skeletons.count(id) > 0;
+  const std::lock_guard lock(request_mutex_);
+  return requests_.skeletons.count(id) > 0;
 }
 
 NiteStatus UserTracker::StartPose(NiteUserId id, NitePoseType type) {
   if (type != NITE_POSE_PSI && type != NITE_POSE_CROSSED_HANDS) return NITE_STATUS_ERROR;
-  const std::lock_guard lock(wishing_);
-  if (!Knows(id)) return NITE_STATUS_BAD_USER_ID;
-  wishes_.poses[id].insert(type);
+  const std::lock_guard lock(request_mutex_);
+  if (!IsKnown(id)) return NITE_STATUS_BAD_USER_ID;
+  requests_.poses[id].insert(type);
   return NITE_STATUS_OK;
 }
 
 void UserTracker::StopPose(NiteUserId id, NitePoseType type) {
-  const std::lock_guard lock(wishing_);
-  const auto found = wishes_.poses.find(id);
-  if (found == wishes_.poses.end()) return;
+  const std::lock_guard lock(request_mutex_);
+  const auto found = requests_.poses.find(id);
+  if (found == requests_.poses.end()) return;
   found->second.erase(type);
-  if (found->second.empty()) wishes_.poses.erase(found);
+  if (found->second.empty()) requests_.poses.erase(found);
 }
 
 void UserTracker::StopPoses(NiteUserId id) {
-  const std::lock_guard lock(wishing_);
-  wishes_.poses.erase(id);
+  const std::lock_guard lock(request_mutex_);
+  requests_.poses.erase(id);
 }
 
 bool UserTracker::SetSmoothing(float factor) {
   if (!(factor >= 0.0F && factor <= 1.0F)) return false;
-  const std::lock_guard lock(wishing_);
-  wishes_.smoothing = factor;
+  const std::lock_guard lock(request_mutex_);
+  requests_.smoothing = factor;
   return true;
 }
 
 float UserTracker::smoothing() const {
-  const std::lock_guard lock(wishing_);
-  return wishes_.smoothing;
+  const std::lock_guard lock(request_mutex_);
+  return requests_.smoothing;
 }
 
 }  // namespace ossa::nite2

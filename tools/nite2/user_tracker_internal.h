@@ -36,10 +36,10 @@ class UserTracker final : public LiveTracker {
  private:
   std::unique_ptr<Stored> Make(CameraFrame seen);
   std::vector<NiteUserId> MakeUserMap(const depth::Image<uint8_t>& users, bool mirrored) const;
-  bool Knows(NiteUserId id) const;
+  bool IsKnown(NiteUserId id) const;
 
-  mutable std::mutex wishing_;  // guards what follows
-  UserWishes wishes_;
+  mutable std::mutex request_mutex_;  // guards what follows
+  UserWishes requests_;
   std::set<NiteUserId> known_;  // users who are not lost
 
   Users users_;  // under `reading_`

@@ -13,7 +13,7 @@ constexpr double kForget_s = 10.0;  // as NiTE does, by convention
 
 NiteBoundingBox EmptyBox() { return {{1e6F, 1e6F, 1e6F}, {-1.0F, -1.0F, -1.0F}}; }
 
-void Include(float u, float v, float z, NiteBoundingBox& box) {
+void Extend(float u, float v, float z, NiteBoundingBox& box) {
   box.min = {std::min(box.min.x, u), std::min(box.min.y, v), std::min(box.min.z, z)};
   box.max = {std::max(box.max.x, u), std::max(box.max.y, v), std::max(box.max.z, z)};
 }
@@ -29,8 +29,8 @@ std::map<int, NiteBoundingBox> FindBoxes(const depth::Image<uint8_t>& users,
       const uint8_t body = users.data[pixel];
       if (body == 0) continue;
       const auto box = boxes.try_emplace(body, EmptyBox()).first;
-      Include(static_cast<float>(mirrored ? users.width - 1 - u : u), static_cast<float>(v),
-              depth_mm[pixel], box->second);
+      Extend(static_cast<float>(mirrored ? users.width - 1 - u : u), static_cast<float>(v),
+             depth_mm[pixel], box->second);
     }
   }
   return boxes;
@@ -72,18 +72,18 @@ NiteUserId Users::UserOf(int body_id) const {
   return 0;
 }
 
-std::vector<int> Users::BodiesWanted(const UserWishes& wishes) const {
+std::vector<int> Users::BodiesWanted(const UserWishes& requests) const {
   std::vector<int> bodies;
   for (const auto& [id, user] : users_) {
-    if (wishes.skeletons.count(id) > 0 || wishes.poses.count(id) > 0) {
+    if (requests.skeletons.count(id) > 0 || requests.poses.count(id) > 0) {
       bodies.push_back(user.body_id);
     }
   }
   return bodies;
 }
 
-// Whoever is new gets the lowest id that is free: programs index arrays of ten by it.
-void Users::Meet(const tracker::BodyFrame& frame) {
+// A new user gets the lowest free id: programs index arrays of ten by it.
+void Users::AssignIds(const tracker::BodyFrame& frame) {
   for (const tracker::Body& body : frame.bodies) {
     NiteUserId id = UserOf(body.id);
     if (id == 0) {
@@ -96,10 +96,10 @@ void Users::Meet(const tracker::BodyFrame& frame) {
   }
 }
 
-void Users::TakeJoints(const tracker::Body& body, const UserWishes& wishes, bool mirrored,
+void Users::TakeJoints(const tracker::Body& body, const UserWishes& requests, bool mirrored,
                        User& user) {
   NiteSkeleton& skeleton = user.data.skeleton;
-  const bool wanted = wishes.skeletons.count(user.data.id) > 0;
+  const bool wanted = requests.skeletons.count(user.data.id) > 0;
   if (!wanted) {
     ForgetJoints(skeleton);
     user.has_joints = false;
@@ -110,18 +110,18 @@ void Users::TakeJoints(const tracker::Body& body, const UserWishes& wishes, bool
   if (body.state != tracker::BodyState::kTracked) return;  // was asked for only now
   const NiteSkeleton before = skeleton;
   FillJoints(body, mirrored, skeleton.joints);
-  if (user.has_joints) Blend(before.joints, wishes.smoothing, skeleton.joints);
+  if (user.has_joints) Blend(before.joints, requests.smoothing, skeleton.joints);
   user.has_joints = true;
   if (asked_before && IsSure(body)) skeleton.state = NITE_SKELETON_TRACKED;
 }
 
 void Users::TakePoses(const tracker::Body& body, const Eigen::Vector3d& up,
-                      const UserWishes& wishes, User& user) {
-  const auto wanted = wishes.poses.find(user.data.id);
+                      const UserWishes& requests, User& user) {
+  const auto wanted = requests.poses.find(user.data.id);
   for (const NitePoseType type : {NITE_POSE_PSI, NITE_POSE_CROSSED_HANDS}) {
     NitePoseData& pose = user.data.poses[type];
     pose = {type, 0};
-    if (wanted == wishes.poses.end() || wanted->second.count(type) == 0) {
+    if (wanted == requests.poses.end() || wanted->second.count(type) == 0) {
       user.poses.erase(type);
       continue;
     }
@@ -135,12 +135,12 @@ void Users::TakePoses(const tracker::Body& body, const Eigen::Vector3d& up,
 
 std::vector<NiteUserData> Users::Step(const tracker::BodyFrame& frame,
                                       const std::vector<uint16_t>& depth_mm,
-                                      const UserWishes& wishes, bool mirrored) {
+                                      const UserWishes& requests, bool mirrored) {
   if (mirrored != mirrored_) {
     for (auto& [id, user] : users_) user.has_joints = false;
   }
   mirrored_ = mirrored;
-  Meet(frame);
+  AssignIds(frame);
   const auto boxes = FindBoxes(frame.users, depth_mm, mirrored);
   const Eigen::Vector3d up =
       frame.floor ? frame.floor->head<3>().eval() : Eigen::Vector3d(0.0, 1.0, 0.0);
@@ -149,8 +149,8 @@ std::vector<NiteUserData> Users::Step(const tracker::BodyFrame& frame,
     const auto box = boxes.find(body.id);
     if (box != boxes.end()) user.data.boundingBox = box->second;
     user.data.centerOfMass = ToNite(body.position_m, mirrored);
-    TakeJoints(body, wishes, mirrored, user);
-    TakePoses(body, up, wishes, user);
+    TakeJoints(body, requests, mirrored, user);
+    TakePoses(body, up, requests, user);
   }
   std::vector<NiteUserData> all;
   for (auto at = users_.begin(); at != users_.end();) {

@@ -90,7 +90,7 @@ void Sender::Impl::SendPerson(const tracker::Body& body, size_t seat, double tim
 }
 
 void Sender::Send(const tracker::BodyFrame& frame) {
-  impl_->room.See(frame);
+  impl_->room.Update(frame);
   if (!impl_->first_s) impl_->first_s = frame.time_s;
   impl_->Seat(frame);
   impl_->ChooseForVrchat(frame.time_s);

@@ -22,7 +22,7 @@ Quaterniond Unity(const Quaterniond& level) {
 
 }  // namespace
 
-void UnityRoom::See(const tracker::BodyFrame& frame) {
+void UnityRoom::Update(const tracker::BodyFrame& frame) {
   if (frame.floor) {
     constexpr int kMost = 300;  // by hand, frames: ten seconds, then a moved camera is followed
     floors_ = std::min(floors_ + 1, kMost);

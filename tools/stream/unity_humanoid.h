@@ -26,7 +26,7 @@ class UnityRoom {
  public:
   /// Takes the frame's floor into account, if there is one. Until one is seen the camera is taken
   /// to be level, and the lowest foot to stand on the floor.
-  void See(const tracker::BodyFrame& frame);
+  void Update(const tracker::BodyFrame& frame);
 
   Eigen::Vector3d Place(const Eigen::Vector3d& camera_m) const;
   /// A rotation of camera space.
