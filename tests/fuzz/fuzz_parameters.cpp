@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     parameters.Numbers("list", {});
     parameters.Integer("frames", 1);
     parameters.Text("name", "");
-    parameters.ExpectAllUsed();
+    parameters.RequireAllUsed();
   });
   return 0;
 }

@@ -1,5 +1,4 @@
-// Pictures of the body and of motions put on it: what the labels are, and whether retargeting
-// holds.
+// Pictures of the body model and of retargeted motions: to inspect part labels and retargeting.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -150,23 +149,23 @@ struct BodySettings {
   int clips = 0, times = 0;
 };
 
-BodySettings AskSettings(Parameters& parameters) {
+BodySettings ReadSettings(Parameters& parameters) {
   return {parameters.Motions("mocap"), parameters.Texts("only", {}),
           parameters.Integer("clips", 8, 1, 40), parameters.Integer("times", 1, 1, 20)};
 }
 
 }  // namespace
 
-void AskBody(ExperimentContext& context) { AskSettings(context.parameters); }
+void ReadBodyParameters(ExperimentContext& context) { ReadSettings(context.parameters); }
 
 std::vector<Table> RunBody(ExperimentContext& context) {
-  const auto [sources, only, count, times] = AskSettings(context.parameters);
+  const auto [sources, only, count, times] = ReadSettings(context.parameters);
   BodyPainter painter;
   recon::RigPose rest;
   rest.root_m = recon::StandardRigRest().head_m[0];
   std::vector<Picture> views;
   for (const double yaw_rad : {0.0, std::numbers::pi / 2, std::numbers::pi}) {
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     views.push_back(painter.Paint(rest, yaw_rad));
   }
   WritePicture(context.out / "parts.png", Strip(views, 3));
@@ -176,13 +175,13 @@ std::vector<Table> RunBody(ExperimentContext& context) {
   options.seed = context.seed;
   options.stop = context.interrupted;
   const auto all = recon::LoadMocap(sources, options);
-  context.StopIfAsked();
+  context.ThrowIfInterrupted();
   const auto clips = Named(all, only);
   std::vector<Picture> poses;
   Table motions{
       "Motions on the body (motions.png, from the left)", {"clip", "frame", "of"}, {}, ""};
   for (const Moment& at : Chosen(clips, static_cast<size_t>(count), static_cast<size_t>(times))) {
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     poses.push_back(painter.Paint(at.clip->frames[at.frame], 0.0));
     motions.rows.push_back(
         {at.clip->name, std::to_string(at.frame), std::to_string(at.clip->frames.size())});

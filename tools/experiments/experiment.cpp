@@ -45,7 +45,7 @@ std::string ComputeLoadedCodeKey() {
 
 // That the files and the folder that the user named are there: a study would else tell of it after
 // its first part, or do without.
-void ExpectFilesOf(const ExperimentContext& context) {
+void RequireFiles(const ExperimentContext& context) {
   namespace fs = std::filesystem;
   if (!context.shared.empty() && !fs::is_directory(context.shared)) {
     throw InputError(context.shared.string() + ": no such folder; expected that of --shared");
@@ -59,7 +59,7 @@ void ExpectFilesOf(const ExperimentContext& context) {
 
 }  // namespace
 
-void ExperimentContext::StopIfAsked() const {
+void ExperimentContext::ThrowIfInterrupted() const {
   if (interrupted && interrupted()) throw Interruption{};
 }
 
@@ -73,7 +73,7 @@ std::string ExperimentContext::Cached(const std::string& key,
     const std::string begin = fmt::format("{}\n{}\n", key.size(), key);
     if (text.starts_with(begin)) return text.substr(begin.size());
   }
-  StopIfAsked();
+  ThrowIfInterrupted();
   const std::string result = compute();
   std::filesystem::create_directories(folder);
   WriteAll(path, fmt::format("{}\n{}\n{}", key.size(), key, result));
@@ -101,9 +101,9 @@ std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& con
     for (const Experiment& e : Experiments()) known.append(" ").append(e.name);
     throw InputError("experiment '" + name + "': expected one of" + known);
   }
-  ExpectFilesOf(context);
-  found->ask(context);
-  context.parameters.ExpectAllUsed();
+  RequireFiles(context);
+  found->read_parameters(context);
+  context.parameters.RequireAllUsed();
   std::filesystem::create_directories(context.out);
   const std::vector<Table> tables = found->run(context);
   std::string markdown =

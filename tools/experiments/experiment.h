@@ -26,8 +26,9 @@ std::string ToMarkdown(const Table& table);
 
 /// The numbers and names a study may be given in a TOML file, flat `key = value` lines. Asking
 /// names the key and its default, so what a study can be told is what it asks for. A study asks for
-/// all of them before it computes anything (Experiment::ask): one that is misspelt or out of range
-/// would else be told of after hours. Values that do not fit are InputErrors with their line.
+/// all of them before it computes anything (Experiment::read_parameters): one that is misspelt or
+/// out of range would else be told of after hours. Values that do not fit are InputErrors with
+/// their line.
 class Parameters {
  public:
   // A bound, so that products of counts fit 64 bits
@@ -66,9 +67,9 @@ class Parameters {
 
   /// What was used, as TOML: written beside the results so that the study can be repeated.
   std::string Used() const;
-  /// Throws InputError for a key of the file that was never asked for. From here on whoever asks
-  /// for one that nobody asked for before breaks a promise: std::logic_error.
-  void ExpectAllUsed();
+  /// Throws InputError for a key of the file that was never read. From here on, reading a key that
+  /// was not read before throws std::logic_error.
+  void RequireAllUsed();
 
  private:
   struct Value {
@@ -79,7 +80,7 @@ class Parameters {
     int line = 0;
   };
   const Value* Find(const std::string& key, bool numbers, bool list);
-  void ExpectMotion(const std::string& key, const std::string& source) const;
+  void RequireMotion(const std::string& key, const std::string& source) const;
   [[noreturn]] void FailAt(const std::string& key, const std::string& expected) const;
 
   std::string source_;
@@ -99,13 +100,13 @@ struct ExperimentContext {
   int threads = 1;
   bool full = false;  // the study's long form; the short one takes a minute or two
   std::function<void(double done, double total, const std::string& note)> progress;
-  std::function<bool()> interrupted;  // true: stop soon, by StopIfAsked()
+  std::function<bool()> interrupted;  // true: stop soon, by ThrowIfInterrupted()
   // Called with one line for each model file that does not belong to the others, each time they are
   // loaded and from any thread; may be empty.
   std::function<void(const std::string& line)> warn;
 
-  /// Throws Interruption when the user pressed Ctrl-C. Studies ask between steps of a second.
-  void StopIfAsked() const;
+  /// Throws Interruption when the user pressed Ctrl-C. Studies call it between steps of a second.
+  void ThrowIfInterrupted() const;
 
   /// The result of a costly step: kept under out/cache by the content of `key`, so that a study
   /// that was stopped takes up where it was. The key must name everything the result depends on:
@@ -129,9 +130,9 @@ struct Interruption {};
 struct Experiment {
   std::string_view name;
   std::string_view summary;
-  /// Asks for every parameter that the study has, whatever parts of it are wanted, and computes
+  /// Reads every parameter of the study, also of parts that are not run, and computes
   /// nothing.
-  void (*ask)(ExperimentContext&);
+  void (*read_parameters)(ExperimentContext&);
   std::vector<Table> (*run)(ExperimentContext&);
 };
 

@@ -157,7 +157,7 @@ std::string Parameters::OneOf(const std::string& key, const std::vector<std::str
   return text;
 }
 
-void Parameters::ExpectMotion(const std::string& key, const std::string& source) const {
+void Parameters::RequireMotion(const std::string& key, const std::string& source) const {
   if (source == "authored" || source == "authored-floor") return;
   if (!values_.contains(key) || std::filesystem::exists(source)) return;
   FailAt(key, fmt::format("{} as a folder or file of motion, or the word 'authored'; found '{}'",
@@ -166,14 +166,14 @@ void Parameters::ExpectMotion(const std::string& key, const std::string& source)
 
 std::string Parameters::Motion(const std::string& key, const std::string& usual) {
   std::string source = Text(key, usual);
-  if (source != usual) ExpectMotion(key, source);
+  if (source != usual) RequireMotion(key, source);
   return source;
 }
 
 std::vector<std::string> Parameters::Motions(const std::string& key) {
   const auto sources = Texts(key, {"authored"});
   if (sources.empty()) FailAt(key, key + " as a list of one or more");
-  for (const std::string& source : sources) ExpectMotion(key, source);
+  for (const std::string& source : sources) RequireMotion(key, source);
   return sources;
 }
 
@@ -232,7 +232,7 @@ std::string Parameters::Used() const {
   return text;
 }
 
-void Parameters::ExpectAllUsed() {
+void Parameters::RequireAllUsed() {
   for (const auto& [key, value] : values_) {
     if (used_.contains(key)) continue;
     std::string known;

@@ -1,4 +1,4 @@
-// The markdown of a table, apart from the studies: who only compares needs none of them.
+// The markdown of a table; separate from the studies, which `ossa compare` does not link.
 #include "tools/experiments/experiment.h"
 
 #include <fmt/format.h>

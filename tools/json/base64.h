@@ -5,7 +5,7 @@
 
 namespace ossa::tools {
 
-/// RFC 4648, section 4, with padding: bytes as pages hold them that need no other file.
+/// Base64 of RFC 4648, section 4, with padding: for data embedded in pages.
 inline std::string Base64(std::string_view bytes) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -5,8 +5,8 @@
 
 namespace ossa::tools {
 
-/// Do confidences mean what they say? Of the joints given with a confidence of 0.7 to 0.8, 70 to
-/// 80 % should lie where they are said to be. Joints are counted in tenths of confidence.
+/// Calibration of confidences: of the joints with a confidence of 0.7 to 0.8, 70 to 80 % should be
+/// within the tolerance. Joints are counted in tenths of confidence.
 class Calibration {
  public:
   struct Bin {
@@ -16,7 +16,7 @@ class Calibration {
   };
   static constexpr size_t kBins = 10;  // by convention, tenths
 
-  /// `confidence` in [0, 1]; what lies beyond counts as the nearest of both.
+  /// `confidence` is clamped to [0, 1].
   void Count(double confidence, bool is_hit);
 
   /// From low confidences to high ones.

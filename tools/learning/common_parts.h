@@ -14,7 +14,7 @@ namespace ossa::tools {
 
 // Constants: counted in the table of common_parts.cpp; none by convention.
 
-/// Parts that our 31 and the 25 of PCL's people trees both tell: what the two are compared on.
+/// Parts common to our 31 and the 25 of PCL's people trees, on which the two are compared.
 inline constexpr int kCommonPartCount = 20;
 inline constexpr uint8_t kNoCommonPart = 255;
 

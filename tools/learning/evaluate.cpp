@@ -31,7 +31,7 @@ double Now_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-// What a model's classes and targets are to us.
+// The relation of a model's classes and targets to ours.
 struct Meaning {
   bool has_our_parts = false;        // else only common parts can be compared
   std::vector<uint8_t> common_part;  // of each class
@@ -120,7 +120,7 @@ void AddPerson(const forest::ForestModel& model, const LabelledFrame& frame, con
   totals->classify_ms += classified_ms - start_ms;
   std::vector<std::vector<forest::Proposal>> by_joint;
   for (const size_t target : meaning.target_of_joint) by_joint.push_back(by_target[target]);
-  const bool is_turned = std::abs(YawAgainstSight(body.joints_m)) > kTurned_rad;
+  const bool is_turned = std::abs(YawRelativeToRay(body.joints_m)) > kTurned_rad;
   if (meaning.has_our_parts) CountPixels(image, result, labels, is_turned, totals);
   CountCommonParts(image, result, labels, meaning.common_part, totals);
   ++totals->people;

@@ -11,10 +11,10 @@
 
 namespace ossa::tools {
 
-/// What `ossa evaluate` reports (docs/architecture.md, "Reports"). NaN stands for what nothing in
-/// the data says: the accuracy of a class or the average precision of a joint that does not occur.
+/// The result of `ossa evaluate` (docs/architecture.md, "Reports"). NaN: the accuracy of a class or
+/// the average precision of a joint that does not occur in the data.
 struct Evaluation {
-  /// A frame by what is wrong in it, to look at.
+  /// A frame with many wrong pixels, as a picture.
   struct Frame {
     int64_t index = 0;
     double pixel_accuracy = 1.0;
@@ -24,7 +24,7 @@ struct Evaluation {
   int64_t people = 0;
   double pixel_accuracy = 0.0;  // over pixels of the 31 parts; NaN for a model of PCL's classes
   double mean_class_accuracy = 0.0;              // of the 31 parts that occur
-  double mean_class_accuracy_first_stage = 0.0;  // of labels before joints speak back to them
+  double mean_class_accuracy_first_stage = 0.0;  // of labels before relabelling
   std::vector<double> class_accuracy;            // by label
   std::vector<double> ap_10cm;                   // by joint
   std::vector<double> ap_10cm_visible;

@@ -21,7 +21,7 @@ struct RatedProposal {
 /// 2010 does). `positives` true joints exist; NaN where none does.
 double AveragePrecision(std::vector<RatedProposal> proposals, int64_t positives);
 
-/// Sums over a data set, of which an Evaluation is made. Pixels by true label, joints by
+/// Sums over a data set for an Evaluation. Pixels by true label, joints by
 /// recon::Joint.
 struct EvaluationTotals {
   std::array<int64_t, recon::kLabelCount> pixels{};

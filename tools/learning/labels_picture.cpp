@@ -11,7 +11,7 @@
 namespace ossa::tools {
 namespace {
 
-// Of each person's pixels, those that ossa evaluate counts: after joints have spoken back to them.
+// Labels of each person's pixels after relabelling, as counted by ossa evaluate.
 depth::Image<uint8_t> LabelPixels(const forest::ForestModel& model, const LabelledFrame& frame) {
   depth::Image<uint8_t> labels = frame.parts;
   std::fill(labels.data.begin(), labels.data.end(), uint8_t{0});

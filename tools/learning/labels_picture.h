@@ -7,7 +7,7 @@
 
 namespace ossa::tools {
 
-/// Depth, true parts and the parts that the model sees side by side, as a PNG of three times the
+/// Depth, true parts and the parts of the model side by side, as a PNG of three times the
 /// frame's width. The frame has its data set's size (Uncropped).
 std::vector<uint8_t> DrawPanels(const forest::ForestModel& model, const LabelledFrame& frame);
 

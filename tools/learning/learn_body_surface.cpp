@@ -41,7 +41,7 @@ constexpr double kMoreTurn_rad = 0.1;
 constexpr double kJointShare = 3.0;
 
 // Vertices of the skin, each as far as can be from those before it.
-std::vector<size_t> SpreadVertices(const BodyModel& model, size_t count) {
+std::vector<size_t> SelectSpreadVertices(const BodyModel& model, size_t count) {
   std::vector<size_t> skin;
   for (size_t v = 0; v < model.vertex_count(); ++v) {
     if (model.vertex_layer()[v] == BodyLayer::kSkin) skin.push_back(v);
@@ -248,7 +248,8 @@ recon::BodyMesh LearnBody(const recon::BodyModel& model,
   if (with_mesh) skin = SimplifySkin(model, options.triangles);
   BodyMesh body;
   body.triangles = skin.triangles;
-  ShapeSamples(model, SpreadVertices(model, options.points), options, skin.vertices).Learn(body);
+  ShapeSamples(model, SelectSpreadVertices(model, options.points), options, skin.vertices)
+      .Learn(body);
   LearnTurns(motion, options.frame_step, body.surface);
   return body;
 }

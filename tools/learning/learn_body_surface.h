@@ -9,14 +9,14 @@
 
 namespace ossa::tools {
 
-/// How a body surface is learned.
+/// Options of learning a body surface.
 struct BodySurfaceOptions {
   size_t points = 600;      // by hand: 4 to 5 cm apart
   size_t people = 500;      // dressed bodies that shape is learned from; chosen by hand
   uint64_t seed = 1;        // of their shapes and clothes; by convention
   size_t triangles = 4000;  // of the mesh, about; by hand: hands still have fingers
-  std::function<void(size_t)> progress;  // told how many people were dressed; may be empty, or
-                                         // throw to end it
+  std::function<void(size_t)> progress;  // called with the number of dressed people; may be empty,
+                                         // or throw to end it
   size_t frame_step = 10;  // of motion every so many frames; by hand: neighbours are alike
 };
 

@@ -7,9 +7,9 @@
 
 namespace ossa::tools {
 
-/// The cascade of `options.after`, which now also estimates how long people's bones are
-/// (recon/refine/bone_estimation.h): learned from where its stages put the joints of the people of
-/// data sets, and of their mirror images. The same bytes for any number of threads. Throws
+/// Adds an estimator of bone lengths (recon/refine/bone_estimation.h) to the cascade of
+/// `options.after`: learned from the joints of its stages for the people of data sets, and of their
+/// mirror images. The same bytes for any number of threads. Throws
 /// InputError where too few people are seen.
 recon::RefinementCascade LearnBoneEstimation(const forest::ForestModel& model,
                                              const std::vector<std::filesystem::path>& datasets,

@@ -32,19 +32,19 @@ using Joints = recon::JointArray<bool>;
 constexpr size_t kEvery = 4;  // frames give an example: neighbours hardly differ
 constexpr size_t kShortest = 60, kLongest = 150;  // frames for which things stay as hidden as ever
 
-/// What is seen in the setups of Shum 2013's table III, and of a person behind a table.
+/// Visible joints in the setups of Shum 2013's table III, and of a person behind a table.
 constexpr std::array<std::initializer_list<size_t>, 6> kFewSeen = {{{7, 15},
                                                                     {11, 19},
                                                                     {7, 11},
                                                                     {7, 11, 15, 19},
                                                                     {5, 7, 9, 11, 13, 15, 17, 19},
                                                                     {3, 7, 11, 15, 19}}};
-/// What one thing hides: arms, legs, the trunk.
+/// Joints hidden together by one object: arms, legs, the trunk.
 constexpr std::array<std::initializer_list<size_t>, 5> kHiddenTogether = {
     {{5, 6, 7}, {9, 10, 11}, {13, 14, 15}, {17, 18, 19}, {1, 2, 3, 4, 8}}};
 
 /// True of joints that are seen; the root is no part of it.
-Joints DrawSeen(Random& random) {
+Joints SampleVisibility(Random& random) {
   Joints seen;
   const double kind = random.Uniform(0.0, 1.0);
   seen.fill(kind >= 0.4);
@@ -68,7 +68,7 @@ Joints DrawSeen(Random& random) {
   return seen;
 }
 
-/// Somebody's size, and how a sensor errs of them for a while.
+/// A person's size and the sensor's errors for a while.
 struct Circumstances {
   Joints seen{};
   double yaw_rad = 0.0;  // by which the heading is wrong
@@ -78,7 +78,7 @@ struct Circumstances {
   BoneLengths lengths_m{};
 };
 
-Eigen::Vector3d DrawVector(Random& random, double deviation) {
+Eigen::Vector3d SampleVector(Random& random, double deviation) {
   Eigen::Vector3d v;
   for (double& x : v) x = random.Normal(0.0, deviation);
   return v;
@@ -86,14 +86,14 @@ Eigen::Vector3d DrawVector(Random& random, double deviation) {
 
 Circumstances Draw(Random& random) {
   Circumstances c;
-  c.seen = DrawSeen(random);
+  c.seen = SampleVisibility(random);
   c.yaw_rad = random.Normal(0.0, 4.0 * std::numbers::pi / 180.0);
   const bool root_seen = random.Chance(0.8);
   c.root_sd_m = recon::BaseSigma_m(0.0) / (root_seen ? 1.0 : 0.3);
   c.white_m = random.Uniform(0.0, 0.012);
   const double error_m = random.Uniform(0.0, 0.012);
-  for (Eigen::Vector3d& error : c.error.position_m) error = DrawVector(random, error_m);
-  c.error.position_m[0] = DrawVector(random, root_seen ? 0.5 * error_m : 0.05);
+  for (Eigen::Vector3d& error : c.error.position_m) error = SampleVector(random, error_m);
+  c.error.position_m[0] = SampleVector(random, root_seen ? 0.5 * error_m : 0.05);
   for (size_t i = 0; i < kJointCount; ++i) {
     const auto twin = recon::kMirroredJoint[i];
     const double ratio = std::exp(random.Normal(0.0, 0.03));
@@ -103,7 +103,7 @@ Circumstances Draw(Random& random) {
   return c;
 }
 
-/// As a sensor tells of it that does not guess.
+/// The posture as of a sensor that does not guess hidden joints.
 recon::PriorObservation Observe(const Posture& truth, const Circumstances& c, bool all,
                                 Random& random) {
   recon::PriorObservation out;
@@ -111,7 +111,7 @@ recon::PriorObservation Observe(const Posture& truth, const Circumstances& c, bo
   out.root_sd_m = c.root_sd_m;
   out.seen = recon::Retargeted(truth, c.lengths_m);
   for (size_t i = 1; i < kJointCount; ++i) {
-    const Eigen::Vector3d white = DrawVector(random, c.white_m);
+    const Eigen::Vector3d white = SampleVector(random, c.white_m);
     out.seen.position_m[i] += c.error.position_m[0] + c.error.position_m[i] + white;
     out.sd_m[i] = all || c.seen[i] ? recon::BaseSigma_m(0.0) : 0.0;
   }

@@ -12,7 +12,7 @@ namespace ossa::tools {
 
 struct PriorNetworkOptions {
   int hidden = 512;  // rectified units, 1..1024
-  int epochs = 12;   // times that every example is looked at
+  int epochs = 12;   // passes over all examples
   int walks = 24;    // through each clip of weight 1, other joints hidden each time
   uint64_t seed = 1;
   int threads = 0;                                 // 0: all; they do not change the network
@@ -20,9 +20,9 @@ struct PriorNetworkOptions {
   std::function<bool()> stop;                      // true: end with TrainInterrupted
 };
 
-/// Learns what no Gaussian says of how people hold themselves (recon::PriorNetwork): the prior's
-/// filter walks through the clips while limbs, halves of the body or joints at random are hidden,
-/// and the network learns from where it expected the bones to where they were. Every
+/// Learns the part of the pose prior that is not Gaussian (recon::PriorNetwork): the prior's filter
+/// runs over the clips while limbs, halves of the body or random joints are hidden, and the network
+/// learns the true bones from the filter's prediction. Every
 /// second walk is of the mirror image. The same bytes for any number of threads. Throws InputError
 /// where the clips hold too few postures.
 recon::PriorNetwork LearnPriorNetwork(const recon::PosturePrior& prior,

@@ -19,10 +19,10 @@ namespace {
 
 using recon::kStageJoints;
 
-// What the network of a joint is to say of where it is put; nothing of what is off by more than a
-// stage may move it: that was mistaken for something else, and nothing near the proposal tells of
-// it.
-void WriteWanted(const Eigen::RowVector3f& offset, PerceptronExamples& out, Eigen::Index row) {
+// The target of the network of a joint; none for a joint that is off by more than a stage may move
+// it: it was confused with something else, and the surface near the proposal does not contain the
+// error.
+void WriteTarget(const Eigen::RowVector3f& offset, PerceptronExamples& out, Eigen::Index row) {
   constexpr OffsetScale kOffsets = recon::RefinementCascade::kOffsets;
   const bool in_reach = kOffsets.step_m * offset.cast<double>().norm() < kOffsets.farthest_m;
   // Value by value: GCC 12 sees a packet read past a row of three.
@@ -49,9 +49,9 @@ PerceptronExamples MakeExamples(const std::vector<RefinementExample>& examples, 
           recon::EncodeBoneLengths(example.given_bones_m);
     };
     put(row, example.person);
-    WriteWanted(example.offset[index], out, row);
+    WriteTarget(example.offset[index], out, row);
     put(row + 1, example.person.Mirrored());
-    WriteWanted(example.offset[other].cwiseProduct(Eigen::RowVector3f(-1.0F, 1.0F, 1.0F)), out,
+    WriteTarget(example.offset[other].cwiseProduct(Eigen::RowVector3f(-1.0F, 1.0F, 1.0F)), out,
                 row + 1);
   }
   return out;

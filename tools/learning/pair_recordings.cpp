@@ -14,7 +14,7 @@ namespace {
 /// Numbers people by the file and the folder in it that their recordings are from.
 class People {
  public:
-  int Of(const std::string& observed_path, const std::string& clip) {
+  int NumberOf(const std::string& observed_path, const std::string& clip) {
     const std::string name = observed_path + "\n" + clip.substr(0, clip.find('/'));
     return numbers_.try_emplace(name, static_cast<int>(numbers_.size())).first->second;
   }
@@ -25,8 +25,8 @@ class People {
 
 using Clips = std::vector<recon::SkeletonClip>;
 
-// Of each observed clip the true one: by name; a single one on each side belongs together whatever
-// its name. Null: there is none.
+// The true clip of each observed one, by name; single clips on both sides are paired whatever their
+// names. Null: none.
 std::vector<const recon::SkeletonClip*> FindTruth(const Clips& observed, const Clips& truth) {
   if (observed.size() == 1 && truth.size() == 1) return {&truth[0]};
   std::map<std::string, const recon::SkeletonClip*> by_name;
@@ -39,7 +39,7 @@ std::vector<const recon::SkeletonClip*> FindTruth(const Clips& observed, const C
   return found;
 }
 
-// Of some without truth a warning says so; of all, nothing can be learned, and that is said.
+// Warns if some have no truth; throws if all have none.
 void WarnOfUnpaired(const std::string& observed_path, const std::string& truth_path,
                     const std::vector<const recon::SkeletonClip*>& truth, Clips& observed) {
   const auto without = std::count(truth.begin(), truth.end(), nullptr);
@@ -59,7 +59,7 @@ void AddClips(const std::string& observed_path, const Clips& observed,
     if (truth[i] == nullptr) continue;
     const std::string& name = observed[i].name;
     recon::AddPairs(observed[i].sequence, truth[i]->sequence, pairs,
-                    people.Of(observed_path, name));
+                    people.NumberOf(observed_path, name));
   }
 }
 

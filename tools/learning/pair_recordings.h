@@ -8,13 +8,13 @@
 
 namespace ossa::tools {
 
-/// What a sensor said beside what was true, of files, folders or archives: the first of `observed`
-/// belongs to the first of `truth`, and so on. Recordings in them belong together by name; a single
-/// one on each side whatever its name; of others nothing is learned, with a warning. Recordings of
-/// one `observed` whose names begin with the same folder (or archive) are of one person. `read`
-/// (may be empty) is called with the recordings of each file, for their warnings, and returns false
-/// to stop: the pairs until then are returned. Throws InputError that names the files between which
-/// no frame matches.
+/// Pairs of observed and true skeletons from files, folders or archives: the first of `observed`
+/// belongs to the first of `truth`, and so on. Recordings in them are paired by name, single ones
+/// on both sides whatever their names; others are left out, with a warning. Recordings of one
+/// `observed` whose names begin with the same folder (or archive) are of one person. `read` (may be
+/// empty) is called with the recordings of each file, for their warnings, and returns false to
+/// stop: the pairs until then are returned. Throws InputError that names the files between which no
+/// frame matches.
 std::vector<recon::PosturePair> PairRecordings(
     const std::vector<std::string>& observed, const std::vector<std::string>& truth,
     const recon::SkeletonReadOptions& reading,

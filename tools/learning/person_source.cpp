@@ -59,7 +59,7 @@ uint8_t FindSector(double angle_rad) {
 
 }  // namespace
 
-double YawAgainstSight(const recon::Posture& joints_m) {
+double YawRelativeToRay(const recon::Posture& joints_m) {
   Eigen::Vector3d left = ComputeLeft(joints_m);
   Eigen::Vector3d sight = joints_m[Joint::kHipCenter] + joints_m[Joint::kShoulderCenter];
   left.y() = 0;
@@ -71,7 +71,7 @@ double YawAgainstSight(const recon::Posture& joints_m) {
 }
 
 uint8_t FacingSector(const recon::Posture& joints_m) {
-  return FindSector(YawAgainstSight(joints_m));
+  return FindSector(YawRelativeToRay(joints_m));
 }
 
 uint8_t HeadingSector(const recon::Posture& joints_m) {

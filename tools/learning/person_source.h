@@ -15,7 +15,7 @@ inline constexpr int kFacingSectors = 8;  // by hand
 
 /// Yaw against the line of sight to the person, radians; 0 faces the camera, positive when the
 /// person's left side comes nearer.
-double YawAgainstSight(const recon::Posture& joints_m);
+double YawRelativeToRay(const recon::Posture& joints_m);
 uint8_t FacingSector(const recon::Posture& joints_m);
 /// From the ceiling, where there is no line of sight to face: the heading in the image, clockwise
 /// in steps of 45°; sector 0 faces its upper border.

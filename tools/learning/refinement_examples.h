@@ -18,7 +18,7 @@ struct RefinementExample {
   recon::SampledPerson person;
   recon::JointArray<Eigen::RowVector3f> offset{};  // as a stage is to say it
   recon::BoneLengths bones_m{};
-  recon::BoneLengths given_bones_m{};  // the true ones where nothing judges them yet
+  recon::BoneLengths given_bones_m{};  // the true ones where nothing estimates them yet
 };
 
 struct RefinementExamples {

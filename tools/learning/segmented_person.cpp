@@ -15,7 +15,7 @@ namespace {
 // As far as the tracker's regions reach over what was not measured: depth::kStepsOverGaps.
 constexpr int kCellsOver = 2;
 
-bool GoesOn(uint16_t a_mm, uint16_t b_mm) {
+bool IsContinuous(uint16_t a_mm, uint16_t b_mm) {
   return depth::Continuous(1e-3F * static_cast<float>(a_mm), 1e-3F * static_cast<float>(b_mm));
 }
 
@@ -54,7 +54,8 @@ std::vector<uint8_t> SegmentedPerson(const LabelledFrame& frame, int id) {
       const auto o = static_cast<size_t>(other);
       if (is_person[o] != 0 || frame.parts.data[o] != recon::kOtherPart) return;
       if (frame.users.data[o] != id || frame.depth.depth_mm[o] == 0) return;
-      if (!GoesOn(frame.depth.depth_mm[static_cast<size_t>(at)], frame.depth.depth_mm[o])) return;
+      if (!IsContinuous(frame.depth.depth_mm[static_cast<size_t>(at)], frame.depth.depth_mm[o]))
+        return;
       is_person[o] = 1;
       front.push_back(other);
     };

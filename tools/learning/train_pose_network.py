@@ -403,13 +403,13 @@ def check(options, parser):
             sys.exit(f"{path}: cannot be written: expected a folder to write it in")
 
 
-def read_judges(folders, device):
+def read_validation(folders, device):
     """People to validate on: some of each folder."""
-    judges = People(folders, device, None)
-    for folder, joints in zip(folders, judges.joints):
+    people = People(folders, device, None)
+    for folder, joints in zip(folders, people.joints):
         if len(joints) == 0:
             sys.exit(f"{folder}: expected people of {FEWEST_JOINTS} known joints, found none")
-    return judges
+    return people
 
 
 def main():
@@ -446,7 +446,7 @@ def main():
             sys.exit(f"expected at least {options.fewest} people of {FEWEST_JOINTS} known joints, "
                      f"found {people.count}")
         time.sleep(1)
-    validation = read_judges(options.validation, device)
+    validation = read_validation(options.validation, device)
     print(f"{time.time() - begun:.0f} s: {people.count} people on {device}", flush=True)
 
     model = PoseNetwork().to(device)

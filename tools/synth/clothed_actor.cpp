@@ -72,9 +72,9 @@ void LabelPeople(const depth::RenderedImage& seen, const depth::SensorImage& sen
   }
 }
 
-LabelledFrame SenseActors(depth::Renderer& renderer, const depth::Camera& camera,
-                          const recon::BodyModel& model, std::span<const Actor> actors,
-                          uint64_t noise_seed) {
+LabelledFrame RenderActors(depth::Renderer& renderer, const depth::Camera& camera,
+                           const recon::BodyModel& model, std::span<const Actor> actors,
+                           uint64_t noise_seed) {
   const depth::RenderedImage seen = renderer.Render(camera, {.projector = true});
   depth::SensorImage sensed = depth::SimulateStructuredLight(seen, camera, {}, noise_seed);
   std::vector<int> meshes;

@@ -51,8 +51,8 @@ void LabelPeople(const depth::RenderedImage& seen, const depth::SensorImage& sen
 
 /// What a structured-light sensor measures of the renderer's scene, labelled: pixels of actor i
 /// carry the user i + 1 and their part. Bodies are left to the caller.
-LabelledFrame SenseActors(depth::Renderer& renderer, const depth::Camera& camera,
-                          const recon::BodyModel& model, std::span<const Actor> actors,
-                          uint64_t noise_seed);
+LabelledFrame RenderActors(depth::Renderer& renderer, const depth::Camera& camera,
+                           const recon::BodyModel& model, std::span<const Actor> actors,
+                           uint64_t noise_seed);
 
 }  // namespace ossa::tools

@@ -91,10 +91,10 @@ struct FrameMaker::State {
   };
   Cast PosePeople(int64_t index, const PeopleScene& scene, const ViewSample& view, Random& random,
                   Random& thing);
-  std::optional<LabelledFrame> Try(int64_t index, int attempt);
+  std::optional<LabelledFrame> TryMake(int64_t index, int attempt);
   depth::SensorModel DrawSensor(int64_t index) const;
-  LabelledFrame Shoot(const ViewSample& view, const std::vector<Prop>& props, const PixelBox& box,
-                      int64_t index, uint64_t noise_seed);
+  LabelledFrame RenderFrame(const ViewSample& view, const std::vector<Prop>& props,
+                            const PixelBox& box, int64_t index, uint64_t noise_seed);
 };
 
 void FrameMaker::State::Dress(int64_t index, int person) {
@@ -223,8 +223,9 @@ depth::SensorModel FrameMaker::State::DrawSensor(int64_t index) const {
 }
 
 // Renders, senses, labels. The image is the crop `box` of the view.
-LabelledFrame FrameMaker::State::Shoot(const ViewSample& view, const std::vector<Prop>& props,
-                                       const PixelBox& box, int64_t index, uint64_t noise_seed) {
+LabelledFrame FrameMaker::State::RenderFrame(const ViewSample& view, const std::vector<Prop>& props,
+                                             const PixelBox& box, int64_t index,
+                                             uint64_t noise_seed) {
   std::vector<int> prop_mesh;
   for (const Prop& prop : props) prop_mesh.push_back(renderer.AddMesh(prop.mesh_in_cam, false));
   depth::Camera crop = view.camera;
@@ -291,12 +292,12 @@ FrameMaker::State::Cast FrameMaker::State::PosePeople(int64_t index, const Peopl
       cast.things.push_back(std::move(prop));
     }
     renderer.UpdateVertices(mesh_of_person[person], posed_m[person]);
-    cast.box = Union(cast.box, Cover(posed_m[person], view.camera));
+    cast.box = Union(cast.box, BoundingBoxOf(posed_m[person], view.camera));
   }
   return cast;
 }
 
-std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) {
+std::optional<LabelledFrame> FrameMaker::State::TryMake(int64_t index, int attempt) {
   const int64_t drawn_for = options.sequence ? 0 : index;  // a sequence is one draw
   Random random = SeedStream(options.seed, kSceneStream, drawn_for, attempt);
   for (int person = 0; person < options.people; ++person) Dress(index, person);
@@ -316,7 +317,7 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
   }
   PixelBox box = cast.box;
   for (const Prop& prop : cast.things) {
-    box = Union(box, Cover(prop.mesh_in_cam.vertices_m, view.camera));
+    box = Union(box, BoundingBoxOf(prop.mesh_in_cam.vertices_m, view.camera));
   }
   if (room || (unseen && options.sequence)) {
     box = {0, 0, view.camera.width - 1, view.camera.height - 1};
@@ -325,9 +326,9 @@ std::optional<LabelledFrame> FrameMaker::State::Try(int64_t index, int attempt) 
   for (Prop& prop : cast.things) props.push_back(std::move(prop));
   const uint64_t noise_seed = SeedStream(options.seed, kNoiseStream, index, attempt).Bits();
   LabelledFrame frame =
-      Shoot(view, props, box, index,
-            options.camera == 0 ? noise_seed
-                                : MixSeed(noise_seed, static_cast<uint64_t>(options.camera)));
+      RenderFrame(view, props, box, index,
+                  options.camera == 0 ? noise_seed
+                                      : MixSeed(noise_seed, static_cast<uint64_t>(options.camera)));
   AddTruth(std::move(cast.bodies), view, index, &frame);
   return frame;
 }
@@ -356,7 +357,7 @@ FrameMaker::~FrameMaker() = default;
 LabelledFrame FrameMaker::Make(int64_t index) {
   std::optional<LabelledFrame> frame;
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
-    auto next = state_->Try(index, attempt);
+    auto next = state_->TryMake(index, attempt);
     if (!next) continue;
     frame = std::move(next);
     if (state_->options.sequence || ShowsEnough(*frame, state_->options)) break;

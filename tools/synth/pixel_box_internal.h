@@ -13,7 +13,7 @@ struct PixelBox {
 };
 
 /// Pixels that a mesh (vertices in camera space, metres) may cover, and a border around them.
-PixelBox Cover(const std::vector<Eigen::Vector3f>& vertices_m, const depth::Camera& camera);
+PixelBox BoundingBoxOf(const std::vector<Eigen::Vector3f>& vertices_m, const depth::Camera& camera);
 
 /// The least box around both.
 PixelBox Union(const PixelBox& a, const PixelBox& b);

@@ -190,7 +190,7 @@ class ChunkWorkers {
                                   std::max<size_t>(1, chunks_.size()));
     running_ = static_cast<int>(count);
     std::vector<std::jthread> threads;
-    for (size_t t = 0; t < count; ++t) threads.emplace_back([this] { Work(); });
+    for (size_t t = 0; t < count; ++t) threads.emplace_back([this] { RenderChunks(); });
     while (running_ > 0) {
       job_.progress(done_);
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -203,7 +203,7 @@ class ChunkWorkers {
   }
 
  private:
-  void Work() {
+  void RenderChunks() {
     try {
       FrameMaker maker(studio_);
       for (size_t k = next_++; k < chunks_.size() && !stopped_; k = next_++) {

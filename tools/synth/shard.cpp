@@ -79,7 +79,7 @@ LabelledFrame CroppedToPeople(const LabelledFrame& frame) {
   return Cropped(frame, u0, v0, u1 - u0 + 1, v1 - v0 + 1);
 }
 
-void PutBodies(PayloadWriter& writer, const std::vector<TruthBody>& bodies) {
+void WriteBodies(PayloadWriter& writer, const std::vector<TruthBody>& bodies) {
   writer.Put(static_cast<uint32_t>(bodies.size()));
   for (const TruthBody& body : bodies) {
     writer.Put(static_cast<int32_t>(body.id));
@@ -177,7 +177,7 @@ std::vector<uint8_t> PackFrame(const LabelledFrame& whole) {
   const Eigen::Vector4d floor = frame.floor.value_or(Eigen::Vector4d::Zero());
   writer.Put(std::array{floor[0], floor[1], floor[2], floor[3]});
   writer.Put(static_cast<uint8_t>((frame.floor ? kHasFloor : 0) | (frame.whole ? kHasWhole : 0)));
-  PutBodies(writer, frame.bodies);
+  WriteBodies(writer, frame.bodies);
   writer.PutVector(DepthPlanes(frame.depth.depth_mm));
   writer.PutVector(frame.parts.data);
   writer.PutVector(frame.users.data);

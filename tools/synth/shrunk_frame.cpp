@@ -14,7 +14,7 @@ struct KeptAxis {
   std::vector<int> from;
 };
 
-KeptAxis Keep(int begin, int length, double shrink, int shrunk_length) {
+KeptAxis SampleAxis(int begin, int length, double shrink, int shrunk_length) {
   KeptAxis kept;
   for (int u = 0; u < shrunk_length; ++u) {
     const int from = static_cast<int>(std::floor((u + 0.5) * shrink)) - begin;
@@ -31,8 +31,8 @@ KeptAxis Keep(int begin, int length, double shrink, int shrunk_length) {
 LabelledFrame ShrunkFrame(const LabelledFrame& frame, int u0, int v0, double shrink,
                           const depth::Camera& whole) {
   const depth::Camera& large = frame.depth.camera;
-  const KeptAxis u = Keep(u0, large.width, shrink, whole.width);
-  const KeptAxis v = Keep(v0, large.height, shrink, whole.height);
+  const KeptAxis u = SampleAxis(u0, large.width, shrink, whole.width);
+  const KeptAxis v = SampleAxis(v0, large.height, shrink, whole.height);
   LabelledFrame shrunk = frame;
   depth::Camera& camera = shrunk.depth.camera;
   camera = whole;

@@ -45,12 +45,12 @@ Vector3d InChest(const recon::RigPose& pose, const recon::Posture& posture, Join
          (posture[joint] - posture[Joint::kShoulderCenter]);
 }
 
-bool HoldsBefore(const recon::RigPose& pose) {
+bool HasHandsInFront(const recon::RigPose& pose) {
   const Vector3d hand = InChest(pose, recon::StandardPosture(pose), Joint::kHandLeft);
   return hand.z() > 0.2 && hand.x() > 0.05 && hand.x() < 0.5 && hand.y() > -0.4 && hand.y() < 0.3;
 }
 
-bool LiesLevel(const recon::RigPose& pose) {
+bool IsForearmLevel(const recon::RigPose& pose) {
   const recon::Posture posture = recon::StandardPosture(pose);
   const Vector3d elbow = InChest(pose, posture, Joint::kElbowLeft);
   const Vector3d hand = InChest(pose, posture, Joint::kHandLeft);
@@ -116,7 +116,7 @@ void Fold(depth::TriangleMesh* mesh, float width_m, float height_m, Random& rand
 
 /// Something to hold up by its upper corners or its sides; x to the left, y up, its middle above
 /// the hands' or between them.
-depth::TriangleMesh ThingToShow(float span_m, Random& random) {
+depth::TriangleMesh SampleHeldUpObject(float span_m, Random& random) {
   constexpr size_t kRows = 20;
   const size_t kind = random.Index(5);
   std::vector<float> rows(kRows, 1.0F);
@@ -161,12 +161,12 @@ void AddHeldUp(const recon::Posture& joints, Random& random, std::vector<Prop>* 
   const Vector3f y = (wish - wish.dot(x) * x).normalized();
   const float ahead_m = Draw(random, -0.02, 0.05);
   const Vector3f at_m = (left_m + right_m) / 2 + ahead_m * before.front;
-  props->push_back({depth::Moved(ThingToShow(span_m, random), Frame(x, y, x.cross(y), at_m)), true,
-                    Grip::kBothHands});
+  props->push_back({depth::Moved(SampleHeldUpObject(span_m, random), Frame(x, y, x.cross(y), at_m)),
+                    true, Grip::kBothHands});
 }
 
 /// What lies about on a desk: the first is a screen or a laptop's, the others small.
-depth::TriangleMesh ThingOnDesk(size_t number, Random& random) {
+depth::TriangleMesh SampleDeskObject(size_t number, Random& random) {
   if (number == 0 && random.Chance(0.6)) {
     const float wide_m = Draw(random, 0.28, 0.6), high_m = wide_m * Draw(random, 0.55, 0.7);
     const float lean = Draw(random, 0.0, 0.45);
@@ -213,7 +213,7 @@ void AddDesk(const recon::Posture& joints, Random& random, std::vector<Prop>* pr
     Vector3f at_m = middle_m + out_m * before.front + along_m * before.left;
     at_m.y() = level_m;
     const float turn = Draw(random, -0.4, 0.4);
-    put(ThingOnDesk(i, random), at_m, turn);
+    put(SampleDeskObject(i, random), at_m, turn);
   }
 }
 
@@ -241,9 +241,9 @@ void AddArmrests(const recon::Posture& joints, Random& random, std::vector<Prop>
 }
 
 bool AreArmsAt(Staging staging, const recon::RigPose& pose) {
-  if (staging == Staging::kHeldUp) return HoldsBefore(pose);
+  if (staging == Staging::kHeldUp) return HasHandsInFront(pose);
   if (staging == Staging::kCrutches) return HoldsCrutch(pose);
-  return LiesLevel(pose);
+  return IsForearmLevel(pose);
 }
 
 }  // namespace

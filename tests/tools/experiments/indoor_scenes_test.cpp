@@ -49,8 +49,8 @@ class InIndoorScenes : public testing::Test {
 TEST_F(InIndoorScenes, SameSeedGivesSameFramesWithAllPeople) {
   const IndoorCast cast = Cast();
   const IndoorScenario scenario{"two", 2, Furnishing::kFurnished};
-  const LabelledFrame first = IndoorStage(scenario, cast, 3).Shoot(1);
-  const LabelledFrame again = IndoorStage(scenario, cast, 3).Shoot(1);
+  const LabelledFrame first = IndoorStage(scenario, cast, 3).RenderFrame(1);
+  const LabelledFrame again = IndoorStage(scenario, cast, 3).RenderFrame(1);
   EXPECT_EQ(first.depth.depth_mm, again.depth.depth_mm);
   for (const int user : {1, 2})
     EXPECT_GT(std::count(first.users.data.begin(), first.users.data.end(), user), 200);
@@ -61,7 +61,7 @@ TEST_F(InIndoorScenes, SofaInFrontHidesAtLeastAThirdOfThePerson) {
   const IndoorCast cast = Cast();
   for (const uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
     const auto seen = [&](Furnishing furnishing) {
-      const LabelledFrame frame = IndoorStage({"one", 1, furnishing}, cast, seed).Shoot(0);
+      const LabelledFrame frame = IndoorStage({"one", 1, furnishing}, cast, seed).RenderFrame(0);
       return std::count(frame.users.data.begin(), frame.users.data.end(), 1);
     };
     const auto whole = seen(Furnishing::kEmpty), rest = seen(Furnishing::kSofaBefore);
@@ -93,9 +93,9 @@ struct OnePerson {
   TruthBody& person() { return truth.bodies[0]; }
   tracker::Body& body() { return answer.bodies[0]; }
   IndoorScore Judged() const {
-    IndoorJudge judge;
-    judge.See(truth, answer);
-    return judge.score;
+    IndoorEvaluator evaluator;
+    evaluator.AddFrame(truth, answer);
+    return evaluator.score;
   }
 
   LabelledFrame truth;
@@ -103,7 +103,7 @@ struct OnePerson {
 };
 
 // Every second joint is hidden and estimated a metre off.
-TEST(IndoorJudge, ScoresVisibleJointsBesideAllJoints) {
+TEST(IndoorEvaluator, ScoresVisibleJointsBesideAllJoints) {
   OnePerson one;
   for (size_t j = 1; j < recon::kJointCount; j += 2) {
     one.person().visible[j] = false;
@@ -116,7 +116,7 @@ TEST(IndoorJudge, ScoresVisibleJointsBesideAllJoints) {
 }
 
 // Joints that the forest did not find are missing in raw; final has placed them and is scored.
-TEST(IndoorJudge, ScoresPlacedJointsThatAreNotTracked) {
+TEST(IndoorEvaluator, ScoresPlacedJointsThatAreNotTracked) {
   OnePerson one;
   for (size_t j = 1; j < recon::kJointCount; j += 2) {
     one.body().raw.state[j] = one.body().joints[j].state = recon::TrackingState::kNotTracked;

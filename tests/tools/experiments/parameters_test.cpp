@@ -39,7 +39,7 @@ class StudyParameters : public testing::Test {
       Parameters parameters = From(text);
       parameters.Number("samples", 100);
       parameters.Texts("methods", {"none"});
-      parameters.ExpectAllUsed();
+      parameters.RequireAllUsed();
     } catch (const InputError& error) {
       return error.what();
     }
@@ -54,7 +54,7 @@ TEST_F(StudyParameters, AreReadWithDefaultsAndSurviveARoundTrip) {
   EXPECT_EQ(p.Texts("methods", {}).size(), 2u);
   EXPECT_EQ(p.Numbers("sizes", {})[1], 2.5);
   EXPECT_EQ(p.Text("kind", "usual"), "usual");
-  EXPECT_NO_THROW(p.ExpectAllUsed());
+  EXPECT_NO_THROW(p.RequireAllUsed());
   Parameters again = From(p.Used());
   EXPECT_EQ(again.Text("kind", "other"), "usual");
   EXPECT_EQ(again.Integer("samples", 0), 7);
@@ -141,7 +141,7 @@ TEST_F(StudyParameters, OutOfRangeAreRefusedByLine) {
 TEST_F(StudyParameters, AreAllReadBeforeTheStudyBegins) {
   Parameters p = From("samples = 7\n");
   p.Integer("samples", 100);
-  p.ExpectAllUsed();
+  p.RequireAllUsed();
   EXPECT_EQ(p.Integer("samples", 100), 7) << "again";
   EXPECT_THROW(p.Integer("smaples", 100), std::logic_error);
 }

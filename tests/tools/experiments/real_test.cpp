@@ -8,8 +8,8 @@
 #include "tests/support/places.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/experiments/real/real_evaluation_internal.h"
 #include "tools/experiments/real/real_holes_internal.h"
-#include "tools/experiments/real/real_judge_internal.h"
 
 namespace ossa::tools {
 namespace {
@@ -141,7 +141,7 @@ TEST(RealStills, AreScoredAtEveryStage) {
   tracker::Tracker tracker;
   for (const RealSet& set : sets) {
     ASSERT_LE(set.stills.size(), 2u);
-    const StillResult result = JudgeStill(set, set.stills[0], tracker);
+    const StillResult result = EvaluateStill(set, set.stills[0], tracker);
     if (result.bodies == 0) continue;
     for (const RealStage stage : kRealStages) {
       EXPECT_EQ(result.errors.at(stage).size(), set.joints.size()) << set.name;
@@ -158,7 +158,7 @@ TEST(RealStills, OfNearPeopleAreWithinTenCentimetresOfTheMarks) {
   tracker::Tracker tracker;
   std::vector<StillResult> results;
   for (const RealStill& still : marked->stills) {
-    results.push_back(JudgeStill(*marked, still, tracker));
+    results.push_back(EvaluateStill(*marked, still, tracker));
   }
   const std::vector<bool> all(marked->joints.size(), true);
   const StageScore score = ScoreStage(*marked, results, RealStage::kFinal, false, all);
@@ -169,7 +169,7 @@ TEST(RealVideo, SeatedPersonKeepsTheirId) {
   for (const RealVideo& video : ReadRealVideos(test::SharedFolder(), 10)) {
     if (video.name != "kinect_v1_seated_video") continue;
     tracker::Tracker tracker;
-    const VideoScore score = JudgeVideo(video, tracker);
+    const VideoScore score = EvaluateVideo(video, tracker);
     EXPECT_EQ(score.frames, 10);
     EXPECT_EQ(score.one_body, 10);
     EXPECT_EQ(score.identity_breaks, 0);

@@ -50,7 +50,7 @@ class Staged : public testing::Test {
 
 TEST_F(Staged, PersonFacesTheSensorWithTheLeftHandAtImageRight) {
   Studio studio(context_, "simulated");
-  const auto frames = studio.Film(clip_, options_);
+  const auto frames = studio.RenderClip(clip_, options_);
   ASSERT_EQ(frames.size(), 4u);
   const auto& joints = frames[0].truth.bodies.at(0).joints;
   const auto at = [&](recon::Joint joint) { return joints[joint]->position_m; };
@@ -69,7 +69,7 @@ TEST_F(Staged, PersonFacesTheSensorWithTheLeftHandAtImageRight) {
 TEST_F(Staged, ViewFromTheRightSeesTheRightSideNearer) {
   options_.azimuth_rad = -std::numbers::pi / 2;
   Studio studio(context_, "simulated");
-  const auto frames = studio.Film(clip_, options_);
+  const auto frames = studio.RenderClip(clip_, options_);
   const auto& joints = frames[0].truth.bodies.at(0).joints;
   const auto depth_of = [&](recon::Joint joint) { return joints[joint]->position_m.z(); };
   EXPECT_LT(depth_of(recon::Joint::kShoulderRight), depth_of(recon::Joint::kShoulderLeft));
@@ -77,9 +77,9 @@ TEST_F(Staged, ViewFromTheRightSeesTheRightSideNearer) {
 
 TEST_F(Staged, ObjectsHideJointsAndLeaveTheTruthUnchanged) {
   Studio studio(context_, "simulated");
-  const auto clean = studio.Film(clip_, options_);
+  const auto clean = studio.RenderClip(clip_, options_);
   options_.clutter = Clutter::kCarSeat;
-  const auto seat = studio.Film(clip_, options_);
+  const auto seat = studio.RenderClip(clip_, options_);
   EXPECT_GT(Hidden(seat[0]), Hidden(clean[0]) + 3) << "knees, ankles, feet";
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     EXPECT_EQ(seat[0].truth.bodies[0].joints[j]->position_m,

@@ -34,7 +34,7 @@ class Frames : public ::testing::TestWithParam<Case> {
     }();
     return bank;
   }
-  static LabelledFrame Shoot(const Case& c, int64_t index, uint64_t seed = 3) {
+  static LabelledFrame RenderFrame(const Case& c, int64_t index, uint64_t seed = 3) {
     FrameOptions options;
     options.width = 160;
     options.height = 120;
@@ -48,14 +48,14 @@ class Frames : public ::testing::TestWithParam<Case> {
 };
 
 TEST_P(Frames, OfSeedsThatDifferInTheirHighestBitsDiffer) {
-  const auto shoot = [](uint64_t seed) { return Shoot(GetParam(), 0, seed).depth.depth_mm; };
+  const auto shoot = [](uint64_t seed) { return RenderFrame(GetParam(), 0, seed).depth.depth_mm; };
   EXPECT_NE(shoot(3), shoot(3 + (uint64_t{1} << 61U)));
 }
 
 TEST_P(Frames, LabelsLieOnTheirBodies) {
   int64_t hands = 0, far = 0, labelled = 0;
   for (int64_t index = 0; index < 12; ++index) {
-    const LabelledFrame frame = Shoot(GetParam(), index);
+    const LabelledFrame frame = RenderFrame(GetParam(), index);
     const depth::Camera& camera = frame.depth.camera;
     ASSERT_EQ(frame.parts.data.size(), frame.depth.depth_mm.size());
     for (int v = 0; v < camera.height; ++v) {
@@ -81,10 +81,10 @@ TEST_P(Frames, LabelsLieOnTheirBodies) {
 }
 
 TEST_P(Frames, DependOnSeedAndNumberAlone) {
-  const LabelledFrame once = Shoot(GetParam(), 5), again = Shoot(GetParam(), 5);
+  const LabelledFrame once = RenderFrame(GetParam(), 5), again = RenderFrame(GetParam(), 5);
   EXPECT_EQ(once.depth.depth_mm, again.depth.depth_mm);
   EXPECT_EQ(once.parts.data, again.parts.data);
-  EXPECT_NE(once.depth.depth_mm, Shoot(GetParam(), 5, 4).depth.depth_mm);
+  EXPECT_NE(once.depth.depth_mm, RenderFrame(GetParam(), 5, 4).depth.depth_mm);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(Frames, OfTheirOwnCamerasRememberHowLargeTheyWereWhole) {
   const Case any{"any", [](FrameOptions& o) { o.cameras = Cameras::kAny; }};
   for (int64_t index = 0; index < 4; ++index) {
-    const LabelledFrame frame = Shoot(any, index);
+    const LabelledFrame frame = RenderFrame(any, index);
     ASSERT_TRUE(frame.whole);
     Shard shard{.first_index = index, .offsets = {0}, .blobs = PackFrame(frame), .file = "shard"};
     shard.offsets.push_back(shard.blobs.size());

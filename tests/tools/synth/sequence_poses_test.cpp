@@ -15,7 +15,7 @@ class Sequence : public ::testing::TestWithParam<Occluders> {
   void SetUp() override {
     if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   }
-  static LabelledFrame Shoot(uint64_t seed, Occluders occluders, int64_t index) {
+  static LabelledFrame RenderFrame(uint64_t seed, Occluders occluders, int64_t index) {
     static const std::vector<recon::MotionClip> clips = recon::LoadMocap({"authored"}, {});
     FrameOptions options;
     options.width = 160;
@@ -32,7 +32,8 @@ class Sequence : public ::testing::TestWithParam<Occluders> {
 
 TEST_P(Sequence, TheRoomAndWhatStandsInItStayWhereTheyAre) {
   for (uint64_t seed = 1; seed <= 4; ++seed) {
-    const LabelledFrame early = Shoot(seed, GetParam(), 0), late = Shoot(seed, GetParam(), 40);
+    const LabelledFrame early = RenderFrame(seed, GetParam(), 0),
+                        late = RenderFrame(seed, GetParam(), 40);
     int64_t compared = 0, moved = 0, of_objects = 0;
     for (size_t i = 0; i < early.parts.data.size(); ++i) {
       const bool stands = GetParam() == Occluders::kScene && early.parts.data[i] == 32;

@@ -63,7 +63,7 @@ void AddDue(const KnownTruth& truth, const Gap& gap, std::vector<double>* absent
       if (absent_s->empty() || *known_s > absent_s->back()) absent_s->push_back(*known_s);
       ++k;
     } else {
-      // Over what the truth does not tell in one go, however long it is.
+      // Skips a gap of the truth in one step, whatever its length.
       const double next_s = truth.NextFrom(time_s);
       if (next_s == kNever_s) return;
       k = std::max(k + 1, std::floor((next_s - gap.start_s) / gap.step_s));
@@ -74,7 +74,8 @@ void AddDue(const KnownTruth& truth, const Gap& gap, std::vector<double>* absent
 // In order: before the result's first frame, between its frames, after its last.
 std::vector<Gap> FindGaps(const std::vector<double>& time_s, const FramesDue& due) {
   const double step_s = StepAt(time_s, 0.25);
-  // Where the truth's frames are farther apart than the result's, a step as long as theirs is none.
+  // Where the frames of the truth are farther apart than those of the result, a step of that length
+  // is no gap.
   const double shortest_gap_s = 1.5 * std::max(step_s, StepAt(due.truth_s, 0.5));
   std::vector<Gap> gaps;
   const double early_s = time_s.front() - due.truth_s.front();

@@ -5,7 +5,7 @@
 
 namespace ossa::tools {
 
-/// What the absence of frames is told by.
+/// Input for the detection of absent frames.
 struct FramesDue {
   std::vector<double> truth_s;  // times of the truth's frames, in order
   double longest_gap_s = 0.2;   // between two of them nothing is known of the truth beyond that

@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "tools/experiments/compare/rigid_transform.h"
+#include "tools/experiments/compare/select_evenly.h"
 
 namespace ossa::tools {
 namespace {
 
 // Constants: chosen by hand.
 
-constexpr size_t kMostMoments = 200;  // that are looked at, evenly spread; for speed
+constexpr size_t kMostMoments = 200;  // evaluated, evenly spaced; for speed
 constexpr size_t kMostIds = 8;        // of a result, those in most frames; for speed
 constexpr double kMissed_m = 1.0;     // what a person without a body counts for, or with a far one
 
@@ -32,13 +33,6 @@ bool HasChoice(const Moment& moment) {
   return !moment.bodies.empty() && (moment.truths.size() > 1 || moment.bodies.size() > 1);
 }
 
-std::vector<const Moment*> Spread(const std::vector<Moment>& moments) {
-  std::vector<const Moment*> some;
-  const size_t taken = std::min(moments.size(), kMostMoments);
-  for (size_t i = 0; i < taken; ++i) some.push_back(&moments[i * moments.size() / taken]);
-  return some;
-}
-
 std::vector<int> FrequentIds(const std::vector<const Moment*>& moments) {
   std::map<int, size_t> frames_of;
   for (const Moment* moment : moments) {
@@ -53,7 +47,8 @@ std::vector<int> FrequentIds(const std::vector<const Moment*>& moments) {
   return ids;
 }
 
-// As if that body were that person; none where they share too little.
+// The transform that aligns the body with the person; none where they have too few joints in
+// common.
 std::optional<Eigen::Matrix4d> TransformOnto(const std::vector<const Moment*>& moments,
                                              size_t person, int id) {
   CommonJoints common;
@@ -66,7 +61,7 @@ std::optional<Eigen::Matrix4d> TransformOnto(const std::vector<const Moment*>& m
   return common.Align();
 }
 
-// Mean distance of people from the bodies that they take.
+// Mean distance of people from their assigned bodies.
 double MeanMiss_m(const std::vector<const Moment*>& moments, const Eigen::Matrix4d& transform) {
   double sum_m = 0.0, people = 0.0;
   for (const Moment* moment : moments) {
@@ -113,7 +108,9 @@ std::vector<SparsePosture> AssignBodies(const Moment& moment) {
 Eigen::Matrix4d FindCommonTransform(const std::vector<Moment>& moments) {
   Eigen::Matrix4d best = Eigen::Matrix4d::Identity();
   if (std::none_of(moments.begin(), moments.end(), HasChoice)) return best;
-  const auto some = Spread(moments);
+  std::vector<const Moment*> all;
+  for (const Moment& moment : moments) all.push_back(&moment);
+  const auto some = SelectEvenly(std::move(all), kMostMoments);
   double least_m = MeanMiss_m(some, best);
   for (const int id : FrequentIds(some)) {
     for (size_t person = 0; person < moments.front().truths.size(); ++person) {

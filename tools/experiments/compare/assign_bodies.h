@@ -9,9 +9,9 @@ namespace ossa::tools {
 /// The true people and the bodies of a result at one time.
 struct Moment {
   double time_s = 0.0;
-  std::vector<std::optional<SparsePosture>> truths;  // by person; empty: nothing is known then
+  std::vector<std::optional<SparsePosture>> truths;  // by person; empty: unknown at this time
   std::vector<SparsePosture> bodies;
-  std::vector<int> ids;  // of the bodies, as the result calls them
+  std::vector<int> ids;  // of the bodies, as in the result
 };
 
 /// Each true person takes the nearest body nobody nearer took, so that identities do not matter

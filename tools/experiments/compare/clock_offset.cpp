@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStep_s = 0.01;       // of the grid of times
 constexpr double kHalf_s = 0.05;       // speeds over a tenth of a second: above the sensor's jitter
-constexpr double kLongest_s = 2000.0;  // that is looked at; for memory
+constexpr double kLongest_s = 2000.0;  // of a recording that is used; for memory
 
 // Speed of every joint at evenly spaced times, and where it is known. speed[joint][time]. Joints
 // are kept apart: their sum over a whole body is nearly constant in many motions and would say
@@ -204,7 +204,7 @@ double RefinedPeak(const std::vector<Correlation>& score, size_t peak) {
 }
 
 // Half of the shorter recording must overlap.
-long FewestShared(const Speeds& a, const Speeds& b) {
+long MinimumOverlap(const Speeds& a, const Speeds& b) {
   const auto longest = [](const Speeds& speeds) {
     long most = 0;
     for (const auto& known : speeds.known) {
@@ -240,7 +240,7 @@ ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double
   const Speeds b = ComputeSpeeds(result, start_s, kStep_s, count);
   const long reach = std::lround(max_offset_s / kStep_s);
   std::vector<Correlation> score;
-  const long fewest = FewestShared(a, b);
+  const long fewest = MinimumOverlap(a, b);
   for (long shift = -reach; shift <= reach; ++shift) {
     if (stop && stop()) throw Interruption{};
     score.push_back(Correlate(a, b, shift, fewest));

@@ -19,7 +19,7 @@ bool HoldsAny(const std::string& name, const std::vector<std::string>& parts) {
                      [&](const std::string& part) { return name.find(part) != std::string::npos; });
 }
 
-void StopIfAsked(const CompareOptions& options) {
+void ThrowIfInterrupted(const CompareOptions& options) {
   if (options.stop && options.stop()) throw Interruption{};
 }
 
@@ -30,7 +30,7 @@ std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& 
   if (reading.columns.empty()) reading.columns = columns;
   reading.stop = options.stop;
   auto clips = recon::ReadSkeletonClips(path, reading);
-  StopIfAsked(options);
+  ThrowIfInterrupted(options);
   std::erase_if(clips, [&](const SkeletonClip& clip) {
     return HoldsAny(clip.name, options.skip) ||
            (!options.only.empty() && !HoldsAny(clip.name, options.only));
@@ -93,7 +93,7 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
       compared.missing_clips.push_back(clip.name);
       continue;
     }
-    StopIfAsked(options);
+    ThrowIfInterrupted(options);
     PairOptions pairing = options.pairing;
     pairing.stop = options.stop;
     AddClip(compared, clip.name, clip, single ? results[0] : *found->second, pairing);
@@ -103,7 +103,7 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
   }
   if (!single) WarnOfClipsWithoutTruth(truth, truth_name, results, name, warnings);
   compared.mean = MeanOverClips(name, compared.clips);
-  // Who finds nobody is compared: all is missed.
+  // A result without people is compared, too: everything is missed.
   if (compared.clips.empty()) RefuseEmpty(truth_name, name, "frames at the times");
   compared.mean_joint_error_interval =
       BootstrapMean(Values(compared.clips, &ClipMetrics::mean_joint_error_cm), options.seed);

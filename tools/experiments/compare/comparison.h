@@ -23,11 +23,11 @@ struct CompareOptions {
 
 /// One result against the truth, over all clips that both have.
 struct ComparedResult {
-  std::string name;   // as given
-  std::string label;  // for tables: the last part of the name where that tells results apart
-  ClipMetrics mean;   // over the clips
-  std::vector<ClipMetrics> clips;                     // by name
-  std::vector<PairedTracks> pairs;                    // of the same clips, for plots
+  std::string name;                 // as given
+  std::string label;                // for tables: the last part of the name where it is unique
+  ClipMetrics mean;                 // over the clips
+  std::vector<ClipMetrics> clips;   // by name
+  std::vector<PairedTracks> pairs;  // of the same clips, for plots
   std::vector<std::string> missing_clips;             // that the truth has and the result does not
   std::optional<Interval> mean_joint_error_interval;  // 95 %, bootstrap over clips
   std::optional<Interval> parent_relative_error_interval;
@@ -61,9 +61,9 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
 /// The object of `ossa compare --json` (docs/architecture.md), with confidence intervals, clips and
 /// tests beside the measures.
 std::string ToJson(const Comparison& comparison);
-/// What to try where the numbers say that the skeletons do not share a space, or that a mirror lies
-/// between them; "" where they do.
-std::string Advice(const Comparison& comparison);
+/// A suggestion if the errors show that the skeletons are in different coordinate systems, or that
+/// one is mirrored; else "".
+std::string MakeAdvice(const Comparison& comparison);
 /// Tables for a terminal.
 std::string ToText(const Comparison& comparison);
 /// One HTML file that needs nothing else: tables, error over time, cumulative curves, bars per

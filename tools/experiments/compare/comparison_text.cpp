@@ -109,7 +109,7 @@ constexpr std::array kSummary = {
     SummaryRow{"time offset s", OffsetCell},
 };
 
-std::string NoteOf(const Comparison& comparison) {
+std::string MakeNote(const Comparison& comparison) {
   std::string note;
   for (const ComparedResult& r : comparison.results) {
     if (r.missing_clips.empty()) continue;
@@ -133,7 +133,7 @@ Table SummaryTable(const Comparison& comparison) {
     table.rows.push_back({row.name});
     for (const ComparedResult& r : comparison.results) table.rows.back().push_back(row.cell(r));
   }
-  table.note = NoteOf(comparison);
+  table.note = MakeNote(comparison);
   return table;
 }
 
@@ -168,7 +168,7 @@ Table TestTable(const Comparison& comparison) {
 }
 
 // Of one clip after the other: a folder may hold mirrored ones beside others.
-std::string AdviceOnMirrored(const ComparedResult& result) {
+std::string MakeMirroringAdvice(const ComparedResult& result) {
   // Errors of ordinary tracking are about as large in a mirror, or larger; where a person stands as
   // a mirror would show them, they are alike.
   constexpr double kFarNearer = 0.5;  // ratio, no unit; by hand
@@ -209,11 +209,11 @@ std::string ToJson(const Comparison& comparison) {
   return JsonText(json) + "\n";
 }
 
-std::string Advice(const Comparison& comparison) {
+std::string MakeAdvice(const Comparison& comparison) {
   constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole; by hand
   if (comparison.rigid) return "";
   for (const ComparedResult& result : comparison.results) {
-    if (std::string advice = AdviceOnMirrored(result); !advice.empty()) return advice;
+    if (std::string advice = MakeMirroringAdvice(result); !advice.empty()) return advice;
     const auto error_cm = result.mean.mean_joint_error_cm;
     if (!error_cm || *error_cm < kApart_cm) continue;
     return fmt::format(
@@ -227,7 +227,7 @@ std::string ToText(const Comparison& comparison) {
   std::string text = ToMarkdown(SummaryTable(comparison)) + "\n";
   text += ToMarkdown(JointTable(comparison));
   if (!comparison.tests.empty()) text += "\n" + ToMarkdown(TestTable(comparison));
-  if (const std::string advice = Advice(comparison); !advice.empty())
+  if (const std::string advice = MakeAdvice(comparison); !advice.empty())
     text += "\n" + OnOneLine(advice) + "\n";
   return text;
 }

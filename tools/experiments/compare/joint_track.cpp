@@ -55,7 +55,7 @@ std::map<int, JointTrack> CollectTracks(const SkeletonSequence& sequence) {
 }
 
 // Without the joints that say not_tracked, wherever a method has put them.
-std::vector<SkeletonFrame> FoundOnly(std::vector<SkeletonFrame> frames) {
+std::vector<SkeletonFrame> RemoveUntracked(std::vector<SkeletonFrame> frames) {
   for (SkeletonFrame& frame : frames) {
     for (BodyRecord& body : frame.bodies) {
       for (auto& joint : body.joints) {
@@ -126,7 +126,7 @@ const JointTrack* MainTrack(const std::map<int, JointTrack>& tracks) {
 
 // The one person of a result in all its frames, also those in which nobody is seen: of several
 // bodies the one with the most frames, else the first, for a changed id is still the same person.
-JointTrack OnlyTrack(const SkeletonSequence& result) {
+JointTrack TrackOfOnePerson(const SkeletonSequence& result) {
   std::map<int, size_t> frames_of;
   for (const SkeletonFrame& frame : result.frames) {
     for (const BodyRecord& body : frame.bodies) ++frames_of[body.id];
@@ -152,7 +152,7 @@ PairedTracks AlignClock(const std::map<int, JointTrack>& truths, const SkeletonS
   PairedTracks clock;
   if (result.frames.empty()) return clock;
   if (truths.size() == 1) {
-    FindOffset(truths.begin()->second, OnlyTrack(result), options, clock);
+    FindOffset(truths.begin()->second, TrackOfOnePerson(result), options, clock);
     return clock;
   }
   const auto results = CollectTracks(result);
@@ -221,7 +221,7 @@ std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSe
   if (truths.empty()) return {};
   const PairedTracks clock = AlignClock(truths, result, options);
   std::vector<SkeletonFrame> frames = InOrder(result.frames);
-  if (options.found_only) frames = FoundOnly(std::move(frames));
+  if (options.found_only) frames = RemoveUntracked(std::move(frames));
   for (SkeletonFrame& frame : frames) frame.time_s += clock.offset_s;
   AddAbsentFrames({CollectTimes(truths), kLongestGap_s, clock.same_clock}, &frames);
   std::vector<Moment> moments = CollectMoments(truths, frames);

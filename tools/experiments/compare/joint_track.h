@@ -44,7 +44,7 @@ struct PairedTracks {
 
 enum class TimeAlignment {
   kAuto,       // none where the frame times of both agree, else as kCorrelate
-  kNone,       // times are taken as they are
+  kNone,       // times are not changed
   kCorrelate,  // the offset with the best cross-correlation of joint speeds: of recordings that
                // began together, or of one clock
   kFixed,      // a given offset

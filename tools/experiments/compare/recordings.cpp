@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path Need(const fs::path& shared, const char* inside) {
+fs::path FindRecordings(const fs::path& shared, const char* inside) {
   if (shared.empty()) {
     throw InputError("--shared: expected the folder of real recordings, found none given");
   }
@@ -38,8 +38,8 @@ std::vector<const char*> FoldersOf(RecordingSet set) {
           "real/sdk_skeletons/kinectgait_v1_txt"};
 }
 
-fs::path Need(const fs::path& shared, RecordingSet set) {
-  return Need(shared, FoldersOf(set).front());
+fs::path FindRecordings(const fs::path& shared, RecordingSet set) {
+  return FindRecordings(shared, FoldersOf(set).front());
 }
 
 std::vector<RecordedPair> PairsIn(const fs::path& path) {
@@ -62,28 +62,28 @@ std::vector<RecordedPair> PairsIn(const fs::path& path) {
 
 }  // namespace
 
-void ExpectRecordings(const fs::path& shared, const std::vector<RecordingSet>& wanted) {
+void RequireRecordings(const fs::path& shared, const std::vector<RecordingSet>& wanted) {
   for (const RecordingSet set : wanted) {
-    for (const char* inside : FoldersOf(set)) Need(shared, inside);
+    for (const char* inside : FoldersOf(set)) FindRecordings(shared, inside);
   }
 }
 
 std::vector<RecordedPair> LoadUiPrmd(const fs::path& shared, bool incorrect) {
-  auto pairs = PairsIn(Need(shared, RecordingSet::kUiPrmd));
+  auto pairs = PairsIn(FindRecordings(shared, RecordingSet::kUiPrmd));
   std::erase_if(pairs,
                 [&](const RecordedPair& pair) { return pair.clip.ends_with("_inc") != incorrect; });
   return pairs;
 }
 
 std::vector<RecordedPair> LoadItop(const fs::path& shared) {
-  auto pairs = PairsIn(Need(shared, RecordingSet::kItop));
+  auto pairs = PairsIn(FindRecordings(shared, RecordingSet::kItop));
   for (RecordedPair& pair : pairs) pair.clip = pair.subject = "itop_side";
   return pairs;
 }
 
 std::vector<RecordedPair> LoadKeraal(const fs::path& shared) {
   std::map<std::string, RecordedPair> pairs;
-  for (auto& clip : recon::ReadSkeletonClips(Need(shared, RecordingSet::kKeraal))) {
+  for (auto& clip : recon::ReadSkeletonClips(FindRecordings(shared, RecordingSet::kKeraal))) {
     const bool vicon = clip.name.find("-Vicon-") != std::string::npos;
     std::string name = clip.name;
     const std::string mark = vicon ? "-Vicon-" : "-Kinect-";
@@ -106,7 +106,7 @@ std::vector<RecordedPair> LoadKeraal(const fs::path& shared) {
 std::vector<RecordedPair> LoadWithoutTruth(const fs::path& shared) {
   std::vector<RecordedPair> all;
   for (const char* inside : FoldersOf(RecordingSet::kWithoutTruth)) {
-    const fs::path folder = Need(shared, inside);
+    const fs::path folder = FindRecordings(shared, inside);
     for (auto& clip : recon::ReadSkeletonClips(folder)) {
       RecordedPair recorded;
       recorded.clip = fmt::format("{}/{}", folder.filename().string(), clip.name);

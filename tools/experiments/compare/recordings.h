@@ -20,7 +20,8 @@ struct RecordedPair {
 enum class RecordingSet { kUiPrmd, kItop, kKeraal, kWithoutTruth };
 
 /// Throws as the functions below do where the folder lacks some, but reads nothing.
-void ExpectRecordings(const std::filesystem::path& shared, const std::vector<RecordingSet>& wanted);
+void RequireRecordings(const std::filesystem::path& shared,
+                       const std::vector<RecordingSet>& wanted);
 
 /// The real recordings with truth in a shared data folder (DIR of `--shared DIR`). Each throws
 /// InputError when the folder lacks them.

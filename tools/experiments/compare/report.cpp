@@ -297,7 +297,7 @@ std::string ToHtml(const Comparison& comparison) {
   html += fmt::format(
       "<h1>Skeletons against {}</h1><p class=\"note\">Alignment: {}{}. {}</p>\n",
       Escaped(comparison.truth), comparison.rigid ? "one rigid transform a clip" : "none",
-      comparison.found_only ? "; joints found only" : "", Escaped(Advice(comparison)));
+      comparison.found_only ? "; joints found only" : "", Escaped(MakeAdvice(comparison)));
   html += Summary(comparison) + "\n" + ErrorOverTime(comparison) + "\n" +
           CumulativeCurves(comparison) + "\n" + JointBars(comparison) + "\n" +
           WorstFrames(comparison) + "\n" + Tests(comparison) + ClipTable(comparison);

@@ -57,7 +57,7 @@ PeopleFilm::PeopleFilm(ExperimentContext& context, int per_height, bool train_sh
 }
 PeopleFilm::~PeopleFilm() = default;
 
-std::vector<LabelledFrame> PeopleFilm::Film(const FilmedPerson& person, bool loose) const {
+std::vector<LabelledFrame> PeopleFilm::RenderClip(const FilmedPerson& person, bool loose) const {
   constexpr double kHeight_m = 1.0, kNearest_m = 3.0, kFarthest_m = 3.8, kAside_rad = 0.6;
   Random random(person.seed, 7);
   recon::Clothing clothing = SampleClothing(random);
@@ -77,8 +77,8 @@ std::vector<LabelledFrame> PeopleFilm::Film(const FilmedPerson& person, bool loo
   for (const recon::RigPose& pose : SequencePoses({clip}, kFrames, person.seed)) {
     const recon::Posture joints_m = actors[0].Take(pose, camera_from_world);
     actors[0].Show(renderer);
-    frames.push_back(SenseActors(renderer, depth::KinectV1Camera(320, 240), stage_->model, actors,
-                                 person.seed * 1000003 + frames.size()));
+    frames.push_back(RenderActors(renderer, depth::KinectV1Camera(320, 240), stage_->model, actors,
+                                  person.seed * 1000003 + frames.size()));
     frames.back().depth.index = static_cast<int64_t>(frames.size() - 1);
     frames.back().depth.time_s = static_cast<double>(frames.size() - 1) / 30.0;
     frames.back().bodies.push_back({1, joints_m, {}});

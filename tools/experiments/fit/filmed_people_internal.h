@@ -31,7 +31,7 @@ class PeopleFilm {
 
   const std::vector<FilmedPerson>& people() const { return people_; }
   /// The person's frames with the true joints and parts; `loose`: in a coat, a skirt or what hangs.
-  std::vector<LabelledFrame> Film(const FilmedPerson& person, bool loose) const;
+  std::vector<LabelledFrame> RenderClip(const FilmedPerson& person, bool loose) const;
 
  private:
   struct Stage;
@@ -44,7 +44,7 @@ struct FitSettings {
   int people_per_height = 0, start_people_per_height = 0, shape_people_per_height = 0;
   bool train_shapes = false;
 };
-FitSettings AskForFit(Parameters& parameters);
+FitSettings ReadFitSettings(Parameters& parameters);
 
 /// Stature and joints with their error bars, as people are and in loose clothes.
 std::vector<Table> FitPeople(ExperimentContext& context);

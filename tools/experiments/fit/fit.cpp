@@ -8,7 +8,7 @@
 #include "depth/base/statistics.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/fit/watched_people_internal.h"
-#include "tools/experiments/real/real_judge_internal.h"
+#include "tools/experiments/real/real_evaluation_internal.h"
 #include "tools/experiments/sdk/method_runs.h"
 
 namespace ossa::tools {
@@ -101,15 +101,15 @@ void AddRow(const Variant& variant, const RealSet& set, const std::vector<StillR
 
 constexpr int kMostPerHeight = 20;  // by hand: a night
 
-std::set<std::string> AskForParts(Parameters& parameters) {
+std::set<std::string> ReadParts(Parameters& parameters) {
   return parameters.Some("parts", {"terms", "people", "starts", "shapes"});
 }
 
-int AskForFrames(Parameters& parameters) { return parameters.Integer("frames", 0); }
+int ReadFrameCount(Parameters& parameters) { return parameters.Integer("frames", 0); }
 
 std::vector<Table> FitTerms(ExperimentContext& context) {
   if (context.shared.empty()) throw InputError("fit: expected --shared FOLDER with real/ in it");
-  const auto sets = ReadRealSets(context.shared, AskForFrames(context.parameters));
+  const auto sets = ReadRealSets(context.shared, ReadFrameCount(context.parameters));
   if (sets.empty()) {
     throw InputError(fmt::format("{}: expected real/depth_frames or real/itop_depth in it",
                                  context.shared.string()));
@@ -123,8 +123,8 @@ std::vector<Table> FitTerms(ExperimentContext& context) {
     for (const RealSet& set : sets) {
       std::vector<StillResult> results;
       for (const RealStill& still : set.stills) {
-        context.StopIfAsked();
-        results.push_back(JudgeStill(set, still, tracker));
+        context.ThrowIfInterrupted();
+        results.push_back(EvaluateStill(set, still, tracker));
       }
       AddRow(variant, set, results, table);
     }
@@ -138,21 +138,21 @@ std::vector<Table> FitTerms(ExperimentContext& context) {
 
 }  // namespace
 
-FitSettings AskForFit(Parameters& parameters) {
+FitSettings ReadFitSettings(Parameters& parameters) {
   return {parameters.Integer("people_per_height", 3, 1, kMostPerHeight),
           parameters.Integer("start_people_per_height", 2, 1, kMostPerHeight),
           parameters.Integer("shape_people_per_height", 1, 1, kMostPerHeight),
           parameters.Flag("train_shapes", false)};
 }
 
-void AskFit(ExperimentContext& context) {
-  AskForParts(context.parameters);
-  AskForFrames(context.parameters);
-  AskForFit(context.parameters);
+void ReadFitParameters(ExperimentContext& context) {
+  ReadParts(context.parameters);
+  ReadFrameCount(context.parameters);
+  ReadFitSettings(context.parameters);
 }
 
 std::vector<Table> RunFit(ExperimentContext& context) {
-  const auto parts = AskForParts(context.parameters);
+  const auto parts = ReadParts(context.parameters);
   std::vector<Table> tables;
   const auto add = [&](const char* part, std::vector<Table> (*run)(ExperimentContext&)) {
     if (parts.count(part) == 0) return;

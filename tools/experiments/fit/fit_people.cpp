@@ -1,4 +1,4 @@
-// Rendered people of known stature: what the surface fit says of them, and how sure it is.
+// Rendered people of known stature: errors of the surface fit and its own estimate of them.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace ossa::tools {
 namespace {
 
-/// What is tried on each person.
+/// A variant of the fit, run on each person.
 struct Trial {
   std::string name;
   bool loose = false;
@@ -96,7 +96,7 @@ void AddJointErrors(const Trial& trial, const std::vector<Outcome>& outcomes, Ta
 }  // namespace
 
 std::vector<Table> FitPeople(ExperimentContext& context) {
-  const FitSettings settings = AskForFit(context.parameters);
+  const FitSettings settings = ReadFitSettings(context.parameters);
   const PeopleFilm film(context, settings.people_per_height, settings.train_shapes);
   const tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table stature{.title = "Stature of rendered people after 3 s",
@@ -115,8 +115,8 @@ std::vector<Table> FitPeople(ExperimentContext& context) {
   for (const Trial& trial : {Trial{"as they are", false}, Trial{"loose clothes", true}}) {
     std::vector<Outcome> outcomes;
     for (const FilmedPerson& person : film.people()) {
-      context.StopIfAsked();
-      outcomes.push_back(Watch(person, film.Film(person, trial.loose), options));
+      context.ThrowIfInterrupted();
+      outcomes.push_back(TrackPerson(person, film.RenderClip(person, trial.loose), options));
       if (context.progress) {
         context.progress(static_cast<double>(outcomes.size()),
                          static_cast<double>(film.people().size()), trial.name);

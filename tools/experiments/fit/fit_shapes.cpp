@@ -1,4 +1,5 @@
-// People whose person file is somebody else's: what a wrong shape does to joints and stature.
+// People fitted with the person file of another person: the effect of a wrong shape on joints and
+// stature.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,9 +9,9 @@
 namespace ossa::tools {
 namespace {
 
-// The person as somebody taller (shorter) would have been measured, who is as well known.
-recon::PersonShape Taller(const recon::PersonShape& person, double by_m,
-                          const recon::BodySurface& surface) {
+// The shape of the person with another stature, known with the same certainty.
+recon::PersonShape ShiftStature(const recon::PersonShape& person, double by_m,
+                                const recon::BodySurface& surface) {
   const recon::ShapeVector& stature = surface.stature_by_shape_m;
   const recon::ShapeVector more = by_m / stature.squaredNorm() * stature;
   recon::PersonShape other = person;
@@ -43,7 +44,7 @@ void AddRow(const Wrong& wrong, const std::vector<Outcome>& outcomes, Table& tab
 }  // namespace
 
 std::vector<Table> FitWrongShapes(ExperimentContext& context) {
-  const FitSettings settings = AskForFit(context.parameters);
+  const FitSettings settings = ReadFitSettings(context.parameters);
   const PeopleFilm film(context, settings.shape_people_per_height, settings.train_shapes);
   const tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table table{.title = "Rendered people with a person file, their own and others'",
@@ -59,13 +60,13 @@ std::vector<Table> FitWrongShapes(ExperimentContext& context) {
                                      {"10 cm shorter", -0.1}, {"30 cm taller", 0.3}};
   std::vector<std::vector<Outcome>> outcomes(wrongs.size());
   for (const FilmedPerson& person : film.people()) {
-    context.StopIfAsked();
-    const std::vector<LabelledFrame> frames = film.Film(person, false);
+    context.ThrowIfInterrupted();
+    const std::vector<LabelledFrame> frames = film.RenderClip(person, false);
     for (size_t k = 0; k < wrongs.size(); ++k) {
       tracker::TrackerOptions with = options;
       const auto& known = k > 0 ? outcomes[0].back().shape : std::nullopt;
-      if (known) with.shapes[1] = Taller(*known, *wrongs[k].by_m, *options.models->surface);
-      outcomes[k].push_back(Watch(person, frames, with));
+      if (known) with.shapes[1] = ShiftStature(*known, *wrongs[k].by_m, *options.models->surface);
+      outcomes[k].push_back(TrackPerson(person, frames, with));
     }
     if (context.progress) {
       context.progress(static_cast<double>(outcomes[0].size()),

@@ -1,5 +1,5 @@
-// How far off joints may be for the surface fit to find the body: from the forest's own joints, and
-// from true ones that are disturbed at random.
+// Basin of convergence of the surface fit: started from the forest's joints, and from true joints
+// with random errors.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@ using recon::Joint;
 using recon::kJointCount;
 using recon::Posture;
 
-/// One frame of a film as the tracker hands it to the fit, nothing being known of the person.
+/// One frame of a clip as input of the fit, without knowledge of the person's shape.
 struct Still {
   depth::DepthFrame depth;
   std::vector<int32_t> pixels;
@@ -68,13 +68,13 @@ void AddStills(const std::vector<LabelledFrame>& frames, const tracker::TrackerO
   }
 }
 
-/// Where a fit begins.
+/// The start of a fit.
 struct Start {
   std::string name;
   std::function<Posture(const Still&, Random&)> joints_m;
 };
 
-Start Disturbed(double sigma_m) {
+Start NoisyStart(double sigma_m) {
   return {fmt::format("true ones, each {:.0f} cm an axis", 100 * sigma_m),
           [sigma_m](const Still& still, Random& random) {
             Posture start_m = still.truth;
@@ -123,11 +123,11 @@ std::vector<Start> Starts(const std::vector<Still>& stills) {
   return {{"the forest's", [](const Still& still, Random&) { return still.raw; }},
           {"the refined ones", [](const Still& still, Random&) { return still.refined; }},
           {"the true ones", [](const Still& still, Random&) { return still.truth; }},
-          Disturbed(0.03),
-          Disturbed(0.06),
-          Disturbed(0.1),
-          Disturbed(0.15),
-          Disturbed(0.2),
+          NoisyStart(0.03),
+          NoisyStart(0.06),
+          NoisyStart(0.1),
+          NoisyStart(0.15),
+          NoisyStart(0.2),
           Shifted(0.1),
           Shifted(0.2),
           Shifted(0.3),
@@ -137,7 +137,7 @@ std::vector<Start> Starts(const std::vector<Still>& stills) {
           {"another's, at one's place", of_another}};
 }
 
-/// Where fits from one kind of start end.
+/// Results of the fits from one kind of start.
 struct Ends {
   std::vector<double> start_cm, sure_cm, unsure_cm, explained;
   size_t retried = 0;
@@ -181,7 +181,7 @@ void AddRows(const std::string& clothes, const std::vector<Still>& stills,
 }  // namespace
 
 std::vector<Table> FitStarts(ExperimentContext& context) {
-  const FitSettings settings = AskForFit(context.parameters);
+  const FitSettings settings = ReadFitSettings(context.parameters);
   const PeopleFilm film(context, settings.start_people_per_height, settings.train_shapes);
   tracker::TrackerOptions options = TrackerOptionsOf(context);
   options.keep_parts = true;
@@ -198,8 +198,8 @@ std::vector<Table> FitStarts(ExperimentContext& context) {
   for (const bool loose : {false, true}) {
     std::vector<Still> stills;
     for (const FilmedPerson& person : film.people()) {
-      context.StopIfAsked();
-      AddStills(film.Film(person, loose), options, stills);
+      context.ThrowIfInterrupted();
+      AddStills(film.RenderClip(person, loose), options, stills);
     }
     AddRows(loose ? "loose" : "as they are", stills, *options.models->surface, context.seed, table);
   }

@@ -18,7 +18,7 @@ double Chi2(const Eigen::Vector3d& off_m, const Eigen::Matrix3d& covariance_m2) 
   return off_m.dot(covariance_m2.inverse() * off_m);
 }
 
-void Note(const tracker::Body& body, const recon::Posture& truth, Outcome& outcome) {
+void AddFit(const tracker::Body& body, const recon::Posture& truth, Outcome& outcome) {
   for (size_t j = 0; j < kJointCount; ++j) {
     const Eigen::Vector3d off_m = body.fit->joints_m.position_m[j] - truth.position_m[j];
     outcome.normalised2[j].push_back(Chi2(off_m, body.fit->covariance_m2[j]));
@@ -53,8 +53,8 @@ const tracker::Body* PersonIn(const tracker::BodyFrame& seen, const recon::Postu
   return nullptr;
 }
 
-Outcome Watch(const FilmedPerson& person, const std::vector<LabelledFrame>& frames,
-              const tracker::TrackerOptions& options) {
+Outcome TrackPerson(const FilmedPerson& person, const std::vector<LabelledFrame>& frames,
+                    const tracker::TrackerOptions& options) {
   tracker::Tracker tracker(options);
   Outcome outcome;
   outcome.target_m = person.target_m;
@@ -62,7 +62,7 @@ Outcome Watch(const FilmedPerson& person, const std::vector<LabelledFrame>& fram
   for (const LabelledFrame& frame : frames) {
     const tracker::BodyFrame seen = tracker.Track(frame.depth);
     const tracker::Body* body = PersonIn(seen, frame.bodies[0].joints_m);
-    if (body != nullptr) Note(*body, frame.bodies[0].joints_m, outcome);
+    if (body != nullptr) AddFit(*body, frame.bodies[0].joints_m, outcome);
   }
   if (outcome.shape) outcome.said = MeasureStature(*outcome.shape, *options.models->surface);
   return outcome;

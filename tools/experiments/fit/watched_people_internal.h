@@ -9,7 +9,7 @@
 
 namespace ossa::tools {
 
-/// What the tracker says of one filmed person.
+/// Results of the tracker for one rendered person.
 struct Outcome {
   double target_m = 0.0, stature_m = 0.0;
   std::optional<recon::PersonShape> shape;  // after the last frame
@@ -22,8 +22,8 @@ struct Outcome {
 
 /// The shipped models, or those of the command line.
 tracker::TrackerOptions TrackerOptionsOf(const ExperimentContext& context);
-Outcome Watch(const FilmedPerson& person, const std::vector<LabelledFrame>& frames,
-              const tracker::TrackerOptions& options);
+Outcome TrackPerson(const FilmedPerson& person, const std::vector<LabelledFrame>& frames,
+                    const tracker::TrackerOptions& options);
 
 /// The fitted body at these joints; null where there is none.
 const tracker::Body* PersonIn(const tracker::BodyFrame& seen, const recon::Posture& truth);

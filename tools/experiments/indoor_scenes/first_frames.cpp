@@ -1,5 +1,4 @@
-// `ossa experiment first-frames`: who is found in a single image, whatever they hold or stand
-// behind.
+// `ossa experiment first-frames`: people found in single images, with held objects and occluders.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,9 +44,10 @@ double Distance_m(const tracker::Body& body, const TruthBody& truth) {
   return sum_m / static_cast<double>(recon::kJointCount);
 }
 
-void Judge(const LabelledFrame& frame, const tracker::BodyFrame& answer, Row& row) {
+void AddImage(const LabelledFrame& frame, const tracker::BodyFrame& answer, Row& row) {
   constexpr double kAt_m = 0.5;  // by hand: half a body's width and more
-  constexpr int kShown = 6;      // joints, by hand as in indoor-scenes: fewer nobody would miss
+  constexpr int kShown =
+      6;  // joints, by hand as in indoor-scenes: with fewer visible, a miss does not count
   const TruthBody& truth = frame.bodies.at(0);
   if (std::ranges::count(truth.visible, true) < kShown) return;
   ++row.images;
@@ -69,10 +69,10 @@ void Play(const Cast& cast, ExperimentContext& context, Row& row) {
   FrameMaker maker(studio);
   tracker::Tracker tracker(cast.how);
   for (int i = 0; i < cast.images; ++i) {
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     const LabelledFrame frame = Uncropped(maker.Make(i), MakeCamera(options));
     tracker.Reset();  // each image is a first one
-    Judge(frame, tracker.Track(frame.depth), row);
+    AddImage(frame, tracker.Track(frame.depth), row);
   }
 }
 
@@ -85,7 +85,7 @@ struct FirstFrameSettings {
   int images = 0;
 };
 
-FirstFrameSettings AskSettings(ExperimentContext& context) {
+FirstFrameSettings ReadSettings(ExperimentContext& context) {
   return {context.parameters.Motions("mocap"),
           context.parameters.Integer("images", context.full ? 200 : 25, 1)};
 }
@@ -104,10 +104,10 @@ FrameOptions FirstFrameOptions(const FirstFrameKind& kind, const FirstFramePlace
   return options;
 }
 
-void AskFirstFrames(ExperimentContext& context) { AskSettings(context); }
+void ReadFirstFramesParameters(ExperimentContext& context) { ReadSettings(context); }
 
 std::vector<Table> RunFirstFrames(ExperimentContext& context) {
-  const auto [sources, images] = AskSettings(context);
+  const auto [sources, images] = ReadSettings(context);
   tracker::TrackerOptions how;
   how.models = LoadModels(context, how.method);
   const auto clips = recon::LoadMocap(sources);

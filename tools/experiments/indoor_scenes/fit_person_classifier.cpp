@@ -1,4 +1,4 @@
-// `ossa experiment person-classifier`: fits what tells people from furniture
+// `ossa experiment person-classifier`: fits the classifier of people and furniture
 // (tools/people/person_classifier_weights.inc, and the same _from_above).
 #include <fmt/format.h>
 
@@ -31,8 +31,8 @@ struct Example {
   std::vector<double> signs;
 };
 
-// A person: mostly one person's pixels and most of that person's. No person: furniture, or a
-// fraction of somebody. In between nobody can say.
+// Positive: mostly pixels of one person, and most of that person's. Negative: furniture, or a small
+// part of a person. In between: no example.
 std::optional<bool> IsPerson(const std::vector<int32_t>& pixels, const LabelledFrame& truth) {
   const PixelShares shares = MeasureShares(pixels, truth);
   if (shares.of_piece > 0.6 && shares.of_person > 0.5) return true;
@@ -106,7 +106,7 @@ class Gatherer {
   void Play(const IndoorScenario& scenario, const IndoorCast& cast, uint64_t seed,
             std::vector<Example>& examples) {
     IndoorStage stage(scenario, cast, seed);
-    for (int64_t f = 5; f < stage.size(); f += 20) Look(stage.Shoot(f), examples);
+    for (int64_t f = 5; f < stage.size(); f += 20) CollectExamples(stage.RenderFrame(f), examples);
   }
 
   // Rooms of every sort; one in four without shelves and plants.
@@ -136,11 +136,11 @@ class Gatherer {
     options.seed = room.seed;
     const FrameStudio studio(LoadFetchedBody(), poses_, options);
     FrameMaker maker(studio);
-    for (int f = 0; f < kFrames; ++f) Look(maker.Make(8 * f), examples);
+    for (int f = 0; f < kFrames; ++f) CollectExamples(maker.Make(8 * f), examples);
   }
 
-  void Look(const LabelledFrame& frame, std::vector<Example>& examples) {
-    context_.StopIfAsked();
+  void CollectExamples(const LabelledFrame& frame, std::vector<Example>& examples) {
+    context_.ThrowIfInterrupted();
     for (auto& seen : collector_.Collect(frame.depth)) {
       const auto person = IsPerson(seen.pixels, frame);
       if (person) examples.push_back({*person, std::move(seen.features)});
@@ -206,7 +206,7 @@ std::vector<LogisticExample> WithTerms(const std::vector<Example>& examples, siz
 }
 
 Table FitWeights(ExperimentContext& context, const WeightSet& set) {
-  const auto [train, check, performances, images, prior] = AskForPersonClassifier(context);
+  const auto [train, check, performances, images, prior] = ReadPersonClassifierSettings(context);
   const uint64_t seed = context.seed * 1000000;
   const auto fitted = Examples(context, set, Split::kTrain, train, performances, seed);
   const auto checked =
@@ -233,7 +233,7 @@ Table FitWeights(ExperimentContext& context, const WeightSet& set) {
   return table;
 }
 
-std::set<std::string> AskForParts(Parameters& parameters) {
+std::set<std::string> ReadParts(Parameters& parameters) {
   return parameters.Some("parts", {"forest", "ceiling", "pose"});
 }
 
@@ -244,22 +244,22 @@ Table FitForestWeightsFromAbove(ExperimentContext& context) {
   return FitWeights(context, kUnderCeiling);
 }
 
-PersonClassifierSettings AskForPersonClassifier(ExperimentContext& context) {
+PersonClassifierSettings ReadPersonClassifierSettings(ExperimentContext& context) {
   constexpr double kLeastPrior = 1e-9;  // by hand: weights need one, however weak
-  Parameters& asked = context.parameters;
-  return {asked.Motion("mocap", "authored"), asked.Motion("check_mocap", "authored"),
-          asked.Integer("performances", context.full ? 60 : 8, 2),
-          asked.Integer("images", context.full ? 300 : 150, 1),
-          asked.Number("prior", 1.0, kLeastPrior)};
+  Parameters& parameters = context.parameters;
+  return {parameters.Motion("mocap", "authored"), parameters.Motion("check_mocap", "authored"),
+          parameters.Integer("performances", context.full ? 60 : 8, 2),
+          parameters.Integer("images", context.full ? 300 : 150, 1),
+          parameters.Number("prior", 1.0, kLeastPrior)};
 }
 
-void AskPersonClassifier(ExperimentContext& context) {
-  AskForParts(context.parameters);
-  AskForPersonClassifier(context);
+void ReadPersonClassifierParameters(ExperimentContext& context) {
+  ReadParts(context.parameters);
+  ReadPersonClassifierSettings(context);
 }
 
 std::vector<Table> RunPersonClassifier(ExperimentContext& context) {
-  const auto parts = AskForParts(context.parameters);
+  const auto parts = ReadParts(context.parameters);
   std::vector<Table> tables;
   if (parts.count("forest") > 0) tables.push_back(FitForestWeights(context));
   if (parts.count("ceiling") > 0) tables.push_back(FitForestWeightsFromAbove(context));

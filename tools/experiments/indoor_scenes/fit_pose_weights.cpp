@@ -1,5 +1,5 @@
-// `ossa experiment person-classifier`: fits how forest and pose network together tell people from
-// furniture (tools/people/pose_weights.inc).
+// `ossa experiment person-classifier`: fits the combination of forest and pose network that
+// classifies people and furniture (tools/people/pose_weights.inc).
 #include <fmt/format.h>
 
 #include <array>
@@ -24,7 +24,7 @@
 namespace ossa::tools {
 namespace {
 
-// Pieces of somebody have a person's joints, too; only what is hardly anybody's is no person.
+// Parts of a person have joints, too: negative examples have hardly any pixels of people.
 std::optional<bool> IsPerson(const std::vector<int32_t>& pixels, const LabelledFrame& truth) {
   const PixelShares shares = MeasureShares(pixels, truth);
   if (shares.of_piece > 0.4 && shares.of_person > 0.5) return true;
@@ -42,14 +42,15 @@ struct Cast {
   int images;  // of each kind and place
 };
 
-std::vector<LogisticExample> Look(const Cast& cast, const FirstFrameKind& kind,
-                                  const FirstFramePlace& place, ExperimentContext& context) {
+std::vector<LogisticExample> CollectExamples(const Cast& cast, const FirstFrameKind& kind,
+                                             const FirstFramePlace& place,
+                                             ExperimentContext& context) {
   const FrameOptions options = FirstFrameOptions(kind, place, cast.split, cast.seed);
   const FrameStudio studio(cast.model, cast.poses, options);
   FrameMaker maker(studio);
   std::vector<LogisticExample> examples;
   for (int i = 0; i < cast.images; ++i) {
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     const LabelledFrame frame = Uncropped(maker.Make(i), MakeCamera(options));
     for (const auto& seen : cast.collector.CollectPoses(frame.depth, cast.network)) {
       const auto person = IsPerson(seen.pixels, frame);
@@ -68,8 +69,8 @@ std::vector<LogisticExample> Gather(const Cast& cast, ExperimentContext& context
   std::mutex mutex;
   int done = 0;
   RunJobs(kRows, context.threads, [&](size_t i) {
-    rows[i] = Look(cast, kFirstFrameKinds[i % kFirstFrameKinds.size()],
-                   kFirstFramePlaces[i / kFirstFrameKinds.size()], context);
+    rows[i] = CollectExamples(cast, kFirstFrameKinds[i % kFirstFrameKinds.size()],
+                              kFirstFramePlaces[i / kFirstFrameKinds.size()], context);
     const std::lock_guard lock(mutex);
     if (context.progress) context.progress(++done, static_cast<double>(kRows), "first frames");
   });
@@ -82,7 +83,7 @@ std::vector<LogisticExample> Gather(const Cast& cast, ExperimentContext& context
 }  // namespace
 
 Table FitPoseWeights(ExperimentContext& context) {
-  const PersonClassifierSettings settings = AskForPersonClassifier(context);
+  const PersonClassifierSettings settings = ReadPersonClassifierSettings(context);
   const recon::BodyModel model = LoadFetchedBody();
   const auto forest = context.model.empty() ? tracker::ShippedFile("body.ossa") : context.model;
   const people::FeatureCollector collector(forest);

@@ -27,17 +27,17 @@ IndoorScore Play(const IndoorScenario& scenario, const IndoorCast& cast, const J
                  const tracker::TrackerOptions& how, const ExperimentContext& context) {
   IndoorStage stage(scenario, cast, job.seed);
   tracker::Tracker tracker(how);
-  IndoorJudge judge;
+  IndoorEvaluator evaluator;
   for (int64_t f = 0; f < stage.size(); ++f) {
-    context.StopIfAsked();
-    const LabelledFrame frame = stage.Shoot(f);
+    context.ThrowIfInterrupted();
+    const LabelledFrame frame = stage.RenderFrame(f);
     const tracker::BodyFrame answer = tracker.Track(frame.depth);
-    judge.See(frame, answer);
+    evaluator.AddFrame(frame, answer);
     if (job.pictures_every == 0 || f % job.pictures_every != 0) continue;
     const auto name = fmt::format("{} {} {:03}.png", scenario.name, job.seed, f);
     tracker::WritePicture(context.out / name, frame.depth, answer);
   }
-  return std::move(judge.score);
+  return std::move(evaluator.score);
 }
 
 std::vector<IndoorScore> PlayAll(const std::vector<Job>& jobs,
@@ -143,19 +143,19 @@ struct SceneSettings {
   bool physics = true;
 };
 
-SceneSettings AskSettings(ExperimentContext& context) {
-  Parameters& asked = context.parameters;
+SceneSettings ReadSettings(ExperimentContext& context) {
+  Parameters& parameters = context.parameters;
   SceneSettings settings;
-  settings.sources = asked.Motions("mocap");
-  settings.performances = asked.Integer("performances", context.full ? 6 : 2, 1);
-  settings.frames = asked.Integer("frames", context.full ? 150 : 90, 2);
-  settings.width = asked.Integer("width", 640, 160, kWidestImage);
-  settings.pictures_every = asked.Integer("pictures_every", 0);
-  settings.only = asked.Text("only", "");
-  settings.split = *SplitFromName(asked.OneOf("split", {"train", "test"}, "test"));
+  settings.sources = parameters.Motions("mocap");
+  settings.performances = parameters.Integer("performances", context.full ? 6 : 2, 1);
+  settings.frames = parameters.Integer("frames", context.full ? 150 : 90, 2);
+  settings.width = parameters.Integer("width", 640, 160, kWidestImage);
+  settings.pictures_every = parameters.Integer("pictures_every", 0);
+  settings.only = parameters.Text("only", "");
+  settings.split = *SplitFromName(parameters.OneOf("split", {"train", "test"}, "test"));
   settings.method =
-      asked.OneOf("method", recon::ReconstructionMethods(), tracker::TrackerOptions().method);
-  settings.physics = asked.Flag("physics", true);
+      parameters.OneOf("method", recon::ReconstructionMethods(), tracker::TrackerOptions().method);
+  settings.physics = parameters.Flag("physics", true);
   return settings;
 }
 
@@ -171,10 +171,10 @@ tracker::TrackerOptions MakeTrackerOptions(const ExperimentContext& context,
 
 }  // namespace
 
-void AskIndoorScenes(ExperimentContext& context) { AskSettings(context); }
+void ReadIndoorScenesParameters(ExperimentContext& context) { ReadSettings(context); }
 
 std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
-  const SceneSettings settings = AskSettings(context);
+  const SceneSettings settings = ReadSettings(context);
   const tracker::TrackerOptions how = MakeTrackerOptions(context, settings);
   const auto clips = recon::LoadMocap(settings.sources);
   const auto model = LoadFetchedBody();

@@ -15,7 +15,7 @@
 
 namespace ossa::tools {
 
-// Rooms: people in rendered indoor scenes, and how well the tracker tells who is where.
+// People in rendered indoor scenes, and the evaluation of detection and identities.
 
 enum class Furnishing {
   kEmpty,       // floor, walls, ceiling
@@ -30,14 +30,14 @@ struct IndoorScenario {
   std::string name;
   int people = 1;
   Furnishing furnishing = Furnishing::kFurnished;
-  bool crossing = false;  // everybody walks past everybody, each on a lane of their own
+  bool crossing = false;  // all people walk past each other, each on their own lane
   bool close = false;     // a sensor at head's height near the people, that sees no floor
   bool still = false;     // 3 m away without moving
 };
 
 std::vector<IndoorScenario> IndoorScenarios();
 
-/// What a room is made of, besides the scenario.
+/// Models and motions for the scenarios.
 struct IndoorCast {
   const recon::BodyModel& model;
   const recon::Wardrobe& wardrobe;
@@ -51,7 +51,7 @@ struct IndoorCast {
 class IndoorStage {
  public:
   IndoorStage(const IndoorScenario& scenario, const IndoorCast& cast, uint64_t seed);
-  LabelledFrame Shoot(int64_t index);
+  LabelledFrame RenderFrame(int64_t index);
   int64_t size() const { return cast_.frames; }
 
  private:
@@ -84,9 +84,9 @@ class IndoorStage {
 /// Everything counted over the frames of one scenario.
 struct IndoorScore {
   int64_t frames = 0, in_view = 0, found = 0;  // people, frame by frame
-  int64_t cut = 0;                             // bodies too many on people who have one already
+  int64_t cut = 0;                             // extra bodies on people who already have one
   int64_t invented = 0;                        // bodies that are no people
-  int64_t switches = 0;                        // a person's id is another than when last found
+  int64_t switches = 0;                        // a person's id differs from when last found
   double iou = 0;                              // summed over found
   PairedTracks raw, final;
   PairedTracks raw_seen;  // raw, without joints that others, the person or the image's edge hide
@@ -94,14 +94,14 @@ struct IndoorScore {
   void Add(const IndoorScore& other);
 };
 
-/// Judges a tracker's answers, frame by frame.
-class IndoorJudge {
+/// Evaluates the results of a tracker, frame by frame.
+class IndoorEvaluator {
  public:
-  void See(const LabelledFrame& truth, const tracker::BodyFrame& answer);
+  void AddFrame(const LabelledFrame& truth, const tracker::BodyFrame& answer);
   IndoorScore score;
 
  private:
-  void SeePerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body, double time_s);
+  void AddPerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body, double time_s);
   std::map<int, int> id_of_person_;  // when last found
 };
 

@@ -1,4 +1,4 @@
-// Who was found, cut in two, invented or mixed up.
+// Counts people found, split bodies, false bodies and identity switches.
 #include <algorithm>
 
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
@@ -7,9 +7,9 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: by hand; they stay, or figures of before and after would not compare.
+// Constants: by hand; do not change them, so that results stay comparable.
 
-// Less of a person than this a user of the tracker would not miss, nor mind.
+// With less of a person visible, neither finding nor missing them counts.
 constexpr double kInView_m2 = 0.10;
 constexpr int kInViewJoints = 6;
 constexpr double kLeastIou = 0.25;  // of a body that is said to be a person's; a ratio of areas
@@ -74,7 +74,7 @@ SparsePosture TrueJoints(const TruthBody& truth) {
   return posture;
 }
 
-SparsePosture SeenJoints(const TruthBody& truth) {
+SparsePosture VisibleJoints(const TruthBody& truth) {
   SparsePosture posture = TrueJoints(truth);
   std::copy(truth.visible.begin(), truth.visible.end(), posture.present.begin());
   return posture;
@@ -101,8 +101,8 @@ void IndoorScore::Add(const IndoorScore& other) {
   Append(raw_seen, other.raw_seen);
 }
 
-void IndoorJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body,
-                            double time_s) {
+void IndoorEvaluator::AddPerson(const TruthBody& truth, const tracker::BodyFrame& answer, int body,
+                                double time_s) {
   const auto joints = [&](tracker::PostureKind kind) {
     const auto record = tracker::ToRecord(answer, kind);
     return body < 0 ? SparsePosture{} : ToSparsePosture(record.bodies[static_cast<size_t>(body)]);
@@ -114,7 +114,7 @@ void IndoorJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& an
     track->result.push_back(joints(kind));
   }
   score.raw_seen.time_s.push_back(time_s);
-  score.raw_seen.truth.push_back(SeenJoints(truth));
+  score.raw_seen.truth.push_back(VisibleJoints(truth));
   score.raw_seen.result.push_back(score.raw.result.back());
   if (body < 0) return;
   const int id = answer.bodies[static_cast<size_t>(body)].id;
@@ -123,7 +123,7 @@ void IndoorJudge::SeePerson(const TruthBody& truth, const tracker::BodyFrame& an
   id_of_person_[truth.id] = id;
 }
 
-void IndoorJudge::See(const LabelledFrame& truth, const tracker::BodyFrame& answer) {
+void IndoorEvaluator::AddFrame(const LabelledFrame& truth, const tracker::BodyFrame& answer) {
   const Overlaps o = CountOverlaps(truth, answer);
   const std::vector<int> body_of = Match(o);
   ++score.frames;
@@ -137,13 +137,13 @@ void IndoorJudge::See(const LabelledFrame& truth, const tracker::BodyFrame& answ
       ++score.found;
       score.iou += o.Iou(static_cast<size_t>(body_of[p]), p);
     }
-    SeePerson(truth.bodies[p], answer, body_of[p], truth.depth.time_s);
+    AddPerson(truth.bodies[p], answer, body_of[p], truth.depth.time_s);
   }
   for (size_t b = 0; b < o.body.size(); ++b) {
     if (std::find(body_of.begin(), body_of.end(), static_cast<int>(b)) != body_of.end()) continue;
     double on_people = 0;
     for (const double common : o.common[b]) on_people += common;
-    // A body on somebody of whom little is seen, and who has no other one, is neither.
+    // A single body on a person of whom little is visible counts neither as found nor as false.
     const auto p = static_cast<size_t>(std::max_element(o.common[b].begin(), o.common[b].end()) -
                                        o.common[b].begin());
     const bool person = 2 * on_people > o.body[b];

@@ -1,4 +1,4 @@
-// People and furniture before a virtual sensor.
+// People and furniture in front of a virtual sensor.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ using Eigen::Vector3f;
 constexpr double kHalfView = 0.45;  // x / z up to which people stay wholly in view; ratio of a
                                     // Kinect v1's half width to its distance (0.55), less a margin
 
-// The stretch of a clip that goes farthest within `frames` frames, heading removed: who crosses a
-// room must walk.
+// The part of a clip with the longest path within `frames` frames, heading removed: people who
+// cross a room must walk.
 std::vector<recon::RigPose> WalkPoses(const std::vector<recon::MotionClip>& clips, int64_t frames,
                                       Random& random) {
   constexpr double kFarEnough_m = 1.8;
@@ -219,7 +219,7 @@ void IndoorStage::Furnish(Random& random) {
   }
 }
 
-LabelledFrame IndoorStage::Shoot(int64_t index) {
+LabelledFrame IndoorStage::RenderFrame(int64_t index) {
   std::vector<TruthBody> bodies;
   for (size_t person = 0; person < actors_.size(); ++person) {
     Actor& actor = actors_[person];
@@ -227,8 +227,8 @@ LabelledFrame IndoorStage::Shoot(int64_t index) {
     bodies.push_back({static_cast<int>(person) + 1, actor.Take(pose, camera_from_world_), {}});
     actor.Show(renderer_);
   }
-  LabelledFrame frame = SenseActors(renderer_, camera_, cast_.model, actors_,
-                                    seed_ * 1000003 + static_cast<uint64_t>(index));
+  LabelledFrame frame = RenderActors(renderer_, camera_, cast_.model, actors_,
+                                     seed_ * 1000003 + static_cast<uint64_t>(index));
   frame.depth.index = index;
   frame.depth.time_s = static_cast<double>(index) / 30.0;
   frame.bodies = std::move(bodies);

@@ -9,18 +9,18 @@
 
 namespace ossa::tools {
 
-// What `ossa experiment person-classifier` fits, and how.
+// Settings and functions of `ossa experiment person-classifier`.
 
 struct PersonClassifierSettings {
   std::string train, check;  // motion
-  int performances = 0;      // of which the forest's weights are fitted
-  int images = 0;            // of which the pose network's are
+  int performances = 0;      // on which the forest's weights are fitted
+  int images = 0;            // on which the pose network's are fitted
   double prior = 0.0;        // FitLogistic()
 };
-PersonClassifierSettings AskForPersonClassifier(ExperimentContext& context);
+PersonClassifierSettings ReadPersonClassifierSettings(ExperimentContext& context);
 
-/// How much of a piece of the image is of the one person that it shows most of, and how much of
-/// that person it is: [0, 1].
+/// Share of a region that belongs to the person it shows most of, and share of that person in the
+/// region: [0, 1].
 struct PixelShares {
   double of_piece = 0.0, of_person = 0.0;
 };
@@ -37,7 +37,7 @@ struct LogisticExample {
 Eigen::VectorXd FitLogistic(const std::vector<LogisticExample>& examples, double prior);
 double ScoreLogistic(const Eigen::VectorXd& weights, const Eigen::VectorXd& terms);
 
-/// What of both kinds has at least so much: a row a threshold, for a table of kPassedColumns.
+/// Examples of both classes with at least each threshold: rows for a table of kPassedColumns.
 inline const std::vector<std::string> kPassedColumns = {"what", "threshold", "people passed",
                                                         "others passed"};
 void AddPassedRows(const std::string& what, const Eigen::VectorXd& weights,

@@ -14,7 +14,7 @@ namespace {
 
 // Constants: chosen by hand, where nothing else is said.
 
-constexpr size_t kEveryNthFrame = 5;  // postures of neighbouring frames say the same
+constexpr size_t kEveryNthFrame = 5;  // neighbouring frames have similar postures
 
 std::string ParseExercise(const std::string& clip) {
   const size_t begin = clip.find('/') + 1;
@@ -34,7 +34,7 @@ std::optional<double> NearestDistance_cm(const recon::PostureDatabase& database,
       count += 1.0;
       continue;
     }
-    // An absent joint counts for nothing; its children hang on its parent.
+    // An absent joint is left out; its children are attached to its parent.
     if (j > 0) seen.position_m[j] = seen.position_m[recon::ParentOf(j)];
   }
   if (count < kFewest || there[0] == 0.0) return std::nullopt;

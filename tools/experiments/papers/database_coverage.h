@@ -8,7 +8,7 @@ class PostureDatabase;  // recon/database/posture_database.h
 
 namespace ossa::tools {
 
-/// How far the postures that people take are from the nearest one of a database: the mean joint
+/// How far the postures of people are from the nearest one of a database: the mean joint
 /// distance, normalised and of the standard size, by exercise (the part of a clip's name between
 /// the slash and the first underscore). What a database lacks, no method that looks postures up in
 /// it can give.

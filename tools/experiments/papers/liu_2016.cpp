@@ -44,7 +44,7 @@ std::vector<std::string> AllActions() {
   return {actions.begin(), actions.end()};
 }
 
-/// What was learned of, of the first fold, and what the methods keep of it.
+/// Number of training frames of the first fold, and of samples that the methods keep.
 Table TableTwo(const ExperimentContext& context, const Liu2016Study& study) {
   Table table;
   table.title = "Table 2: sizes of the databases";
@@ -174,9 +174,9 @@ uint64_t BodyOf(const std::string& mover, std::map<std::string, uint64_t>* bodie
 
 }  // namespace
 
-Liu2016Settings AskForLiu2016(ExperimentContext& context) {
+Liu2016Settings ReadLiu2016Settings(ExperimentContext& context) {
   Liu2016Settings settings;
-  settings.observer = AskForObserver(context.parameters);
+  settings.observer = ReadObserver(context.parameters);
   settings.movers = context.parameters.Integer("movers", context.full ? 5 : 3, 2);
   settings.frames = context.parameters.Integer("frames", context.full ? 240 : 120, 2);
   settings.folds =
@@ -185,7 +185,7 @@ Liu2016Settings AskForLiu2016(ExperimentContext& context) {
 }
 
 Liu2016Study::Liu2016Study(ExperimentContext& context) {
-  const auto [observer, movers, frames, tested] = AskForLiu2016(context);
+  const auto [observer, movers, frames, tested] = ReadLiu2016Settings(context);
   note = ObserverNote(observer) +
          fmt::format(
              "Motions: ossa's authored actions by {} movers, {} frames each, {} of them "
@@ -255,9 +255,9 @@ std::optional<double> MeasureError(const ExperimentContext& context, const Liu20
   return MeanOverClips(method, clips).mean_joint_error_cm;
 }
 
-void AskLiu2016(ExperimentContext& context) {
-  AskForLiu2016(context);
-  AskForPrior(context.parameters);
+void ReadLiu2016Parameters(ExperimentContext& context) {
+  ReadLiu2016Settings(context);
+  ReadUsesPrior(context.parameters);
 }
 
 std::vector<Table> RunLiu2016(ExperimentContext& context) {

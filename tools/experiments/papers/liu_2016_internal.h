@@ -8,7 +8,7 @@ struct Liu2016Settings {
   int movers = 0, frames = 0;
   int folds = 0;  // movers that are tested
 };
-Liu2016Settings AskForLiu2016(ExperimentContext& context);
+Liu2016Settings ReadLiu2016Settings(ExperimentContext& context);
 
 /// The recordings of `ossa experiment liu-2016`: clips are named "ACTION/MOVER", the subject is the
 /// mover, folds leave one mover out.
@@ -23,7 +23,7 @@ struct Liu2016Study {
 
   /// Recordings of an action ("" = all) by the mover left out.
   std::vector<RecordedPair> TestClips(const std::string& action, const std::string& mover) const;
-  /// A learning method for the fold: whatever is learned is learned of the other movers.
+  /// A learned method for the fold, trained on the other movers.
   MethodRun Run(const ExperimentContext& context, const std::string& label,
                 const std::string& method, const std::string& mover,
                 const recon::LearnOptions& learn = {}) const;

@@ -46,19 +46,19 @@ struct Study {
   std::string note;
 };
 
-bool SeesNobody(const recon::SkeletonFrame& frame) {
+bool IsWithoutJoints(const recon::SkeletonFrame& frame) {
   return std::all_of(frame.bodies.begin(), frame.bodies.end(), [](const recon::BodyRecord& body) {
     return std::none_of(body.joints.begin(), body.joints.end(),
                         [](const auto& joint) { return joint.has_value(); });
   });
 }
 
-// The frames in which the sensor saw somebody: what a method makes of frames without a single joint
-// says little of it.
-PairedTracks WhereSeen(const RecordedPair& scenario, const PairedTracks& pair) {
+// The frames in which the sensor saw a person: results for frames without any joint say little
+// about a method.
+PairedTracks FramesWithPeople(const RecordedPair& scenario, const PairedTracks& pair) {
   std::set<double> unseen_s;
   for (const auto& frame : scenario.observed.frames) {
-    if (SeesNobody(frame)) unseen_s.insert(frame.time_s);
+    if (IsWithoutJoints(frame)) unseen_s.insert(frame.time_s);
   }
   PairedTracks seen{pair.name, {}, {}, {}};
   for (size_t f = 0; f < pair.time_s.size(); ++f) {
@@ -70,14 +70,14 @@ PairedTracks WhereSeen(const RecordedPair& scenario, const PairedTracks& pair) {
   return seen;
 }
 
-int AskForFrames(ExperimentContext& context) {
+int ReadFrameCount(ExperimentContext& context) {
   return context.parameters.Integer("frames", context.full ? 600 : 120, 2);
 }
 
 Study Prepare(ExperimentContext& context) {
   Study study;
-  const std::string observer = AskForObserver(context.parameters);
-  const int frames = AskForFrames(context);
+  const std::string observer = ReadObserver(context.parameters);
+  const int frames = ReadFrameCount(context);
   const auto motions = TenPerformances(context, frames);
   study.note = ObserverNote(observer) + motions.note;
   Studio studio(context, observer);
@@ -100,7 +100,7 @@ Study Prepare(ExperimentContext& context) {
     study.clips.push_back(MeasureAll(study.pairs.back()));
     auto& seen = study.seen.emplace_back();
     for (size_t s = 0; s < study.scenarios.size(); ++s) {
-      seen.push_back(Measure(WhereSeen(study.scenarios[s], study.pairs.back()[s])));
+      seen.push_back(Measure(FramesWithPeople(study.scenarios[s], study.pairs.back()[s])));
     }
     study.methods.push_back(std::move(run));
   };
@@ -111,7 +111,7 @@ Study Prepare(ExperimentContext& context) {
     run.options.seed = context.seed;
     if (recon::RequireMethod(method).prior) {
       run.options.prior = LoadPrior(context);
-      KnowObserver(observer, &run);
+      SetObserverCorrection(observer, &run);
     }
     add(std::move(run));
   }
@@ -133,7 +133,7 @@ std::optional<double> ShareOfJointsHidden(const recon::SkeletonSequence& truth) 
 std::optional<double> ShareOfFramesWithNobody(const recon::SkeletonSequence& observed) {
   const auto& frames = observed.frames;
   if (frames.empty()) return std::nullopt;
-  const auto nobody = std::count_if(frames.begin(), frames.end(), SeesNobody);
+  const auto nobody = std::count_if(frames.begin(), frames.end(), IsWithoutJoints);
   return static_cast<double>(nobody) / static_cast<double>(frames.size());
 }
 
@@ -226,12 +226,12 @@ void DrawCumulative(const ExperimentContext& context, const Study& study) {
 
 }  // namespace
 
-void AskPlantard2016(ExperimentContext& context) {
-  AskForObserver(context.parameters);
-  AskForFrames(context);
-  AskForMotions(context);
-  AskForDatabaseMotion(context.parameters);
-  AskForPrior(context.parameters);
+void ReadPlantard2016Parameters(ExperimentContext& context) {
+  ReadObserver(context.parameters);
+  ReadFrameCount(context);
+  ReadMotions(context);
+  ReadDatabaseMotion(context.parameters);
+  ReadUsesPrior(context.parameters);
 }
 
 std::vector<Table> RunPlantard2016(ExperimentContext& context) {

@@ -23,7 +23,7 @@ Table MakePlantard2016Tests(const std::vector<std::string>& labels,
                             const std::vector<std::vector<ClipMetrics>>& clips);
 
 /// The parameter `database_mocap`: what the database was made of.
-std::string AskForDatabaseMotion(Parameters& parameters);
+std::string ReadDatabaseMotion(Parameters& parameters);
 
 /// Figure 9: `method` (plantard-2016) over the hard scenarios, one parameter of the graph changed
 /// at a time.

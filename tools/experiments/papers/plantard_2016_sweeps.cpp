@@ -12,7 +12,7 @@ namespace {
 /// The clips that the database is of. A graph of its nodes alone would lack what the filter left
 /// out: its connections would be steps over what is missing.
 std::vector<recon::PostureClip> LoadDatabaseClips(ExperimentContext& context) {
-  const std::string mocap = AskForDatabaseMotion(context.parameters);
+  const std::string mocap = ReadDatabaseMotion(context.parameters);
   std::vector<recon::PostureClip> clips;
   for (const recon::MotionClip& clip : recon::LoadMocap({mocap}, {})) {
     recon::PostureClip& made = clips.emplace_back();
@@ -26,7 +26,7 @@ std::vector<recon::PostureClip> LoadDatabaseClips(ExperimentContext& context) {
 
 }  // namespace
 
-std::string AskForDatabaseMotion(Parameters& parameters) {
+std::string ReadDatabaseMotion(Parameters& parameters) {
   return parameters.Motion("database_mocap", "authored");
 }
 

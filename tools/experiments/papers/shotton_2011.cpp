@@ -37,27 +37,27 @@ struct ShottonSettings {
   int trees = 0;
 };
 
-ShottonSettings AskSettings(ExperimentContext& context) {
-  Parameters& asked = context.parameters;
+ShottonSettings ReadSettings(ExperimentContext& context) {
+  Parameters& parameters = context.parameters;
   const bool full = context.full;
   // By definition of `ossa train`: as many as it takes.
   constexpr int kMostTrees = 16, kMostDepth = 24, kMostPixels = 100'000, kMostCandidates = 100'000;
   constexpr int kLeastImages = 100;  // by definition: the last ten of each are kept for proposals
   ShottonSettings settings;
-  settings.motion = asked.Motion("motion", "authored");
-  settings.test_motion = asked.Motion("test_motion", settings.motion);
-  settings.pixels = asked.Integer("pixels", full ? 300 : 150, 1, kMostPixels);
-  settings.candidates = asked.Integer("candidates", full ? 500 : 150, 1, kMostCandidates);
-  settings.validation_images = asked.Integer("validation_images", full ? 400 : 60, 1);
-  settings.test_images = asked.Integer("test_images", full ? 1000 : 150, 1);
-  settings.images = asked.Integers(
+  settings.motion = parameters.Motion("motion", "authored");
+  settings.test_motion = parameters.Motion("test_motion", settings.motion);
+  settings.pixels = parameters.Integer("pixels", full ? 300 : 150, 1, kMostPixels);
+  settings.candidates = parameters.Integer("candidates", full ? 500 : 150, 1, kMostCandidates);
+  settings.validation_images = parameters.Integer("validation_images", full ? 400 : 60, 1);
+  settings.test_images = parameters.Integer("test_images", full ? 1000 : 150, 1);
+  settings.images = parameters.Integers(
       "images",
       full ? std::vector<int>{300, 1000, 3000, 10000, 30000} : std::vector<int>{100, 1000},
       kLeastImages);
-  settings.depths = asked.Integers(
+  settings.depths = parameters.Integers(
       "depths", full ? std::vector<int>{5, 8, 12, 16, 20} : std::vector<int>{5, 10, 15}, 1,
       kMostDepth);
-  settings.trees = asked.Integer("trees", full ? 3 : 1, 1, kMostTrees);
+  settings.trees = parameters.Integer("trees", full ? 3 : 1, 1, kMostTrees);
   return settings;
 }
 
@@ -75,8 +75,8 @@ class Laboratory {
   // A data set of this study; finished ones are kept.
   fs::path RenderData(Split split, int64_t frames);
   // Train and measure; cached.
-  Evaluation Judge(const Setting& setting, int64_t test_frames);
-  Evaluation JudgeShipped(int64_t test_frames);
+  Evaluation EvaluateSetting(const Setting& setting, int64_t test_frames);
+  Evaluation EvaluateShipped(int64_t test_frames);
 
  private:
   Evaluation Measured(const std::string& key, const std::function<forest::ForestModel()>& model,
@@ -134,7 +134,7 @@ Evaluation Laboratory::Measured(const std::string& key,
     const Evaluation e = Evaluate(grown, key, DatasetReader(test), 1, [&](int64_t, int64_t) {
       return !(context_.interrupted && context_.interrupted());
     });
-    context_.StopIfAsked();
+    context_.ThrowIfInterrupted();
     return nlohmann::json{{"pixel", e.pixel_accuracy}, {"class", e.mean_class_accuracy},
                           {"map", e.map_10cm},         {"map_visible", e.map_10cm_visible},
                           {"ap", e.ap_10cm},           {"ap_visible", e.ap_10cm_visible}}
@@ -154,7 +154,7 @@ Evaluation Laboratory::Measured(const std::string& key,
   return evaluation;
 }
 
-Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
+Evaluation Laboratory::EvaluateSetting(const Setting& setting, int64_t test_frames) {
   const std::string key =
       fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", ComputeCodeKey(), settings_.motion,
                   setting.images, setting.depth, setting.trees, settings_.pixels,
@@ -189,7 +189,7 @@ Evaluation Laboratory::Judge(const Setting& setting, int64_t test_frames) {
       test_frames);
 }
 
-Evaluation Laboratory::JudgeShipped(int64_t test_frames) {
+Evaluation Laboratory::EvaluateShipped(int64_t test_frames) {
   const fs::path path = context_.model.empty() ? tracker::ShippedFile("body.ossa") : context_.model;
   return Measured(
       fmt::format("shotton shipped {} {}", ComputeCodeKey(), ComputeFileKey(path)),
@@ -249,10 +249,10 @@ std::string Percent(double share) { return std::isnan(share) ? "-" : Cell(100 * 
 
 }  // namespace
 
-void AskShotton2011(ExperimentContext& context) { AskSettings(context); }
+void ReadShotton2011Parameters(ExperimentContext& context) { ReadSettings(context); }
 
 std::vector<Table> RunShotton2011(ExperimentContext& context) {
-  const ShottonSettings settings = AskSettings(context);
+  const ShottonSettings settings = ReadSettings(context);
   Laboratory laboratory(context, settings);
   const int64_t tests = settings.test_images;
   Table table;
@@ -263,7 +263,7 @@ std::vector<Table> RunShotton2011(ExperimentContext& context) {
   for (const int count : settings.images) {
     for (const int depth : settings.depths) {
       const Setting setting{count, depth, settings.trees};
-      const Evaluation e = laboratory.Judge(setting, tests);
+      const Evaluation e = laboratory.EvaluateSetting(setting, tests);
       accuracy[count][depth] = e.mean_class_accuracy;
       table.rows.push_back({fmt::format("{}", setting.images), fmt::format("{}", setting.depth),
                             Percent(e.mean_class_accuracy), Percent(e.pixel_accuracy),
@@ -283,7 +283,7 @@ std::vector<Table> RunShotton2011(ExperimentContext& context) {
   Table joints;
   joints.title = "Figure 8: average precision within 10 cm by joint, the shipped model";
   joints.columns = {"joint", "AP, %", "AP where visible, %"};
-  const Evaluation shipped = laboratory.JudgeShipped(tests);
+  const Evaluation shipped = laboratory.EvaluateShipped(tests);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     joints.rows.push_back({std::string(recon::kJointNames[j]), Percent(shipped.ap_10cm.at(j)),
                            Percent(shipped.ap_10cm_visible.at(j))});

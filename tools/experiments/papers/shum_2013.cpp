@@ -109,8 +109,8 @@ std::string Limbs(const Eigen::Vector3d& limbs_cm) {
   return fmt::format("{:.2f} / {:.2f} / {:.2f}", limbs_cm[0], limbs_cm[1], limbs_cm[2]);
 }
 
-/// Why table III is what it is: how near a single posture of the database can come, and which limbs
-/// best has wrong.
+/// Explains table III: the error of the best single posture of the database, and the limbs with the
+/// largest errors of best.
 Table ComputeTableThreeBounds(const ExperimentContext& context, const Shum2013Study& study) {
   Table table;
   table.title = "Table III: what the database can give, true bones, and where best errs, eq. 18";
@@ -204,7 +204,7 @@ Table TableFour(const ExperimentContext& context, const Shum2013Study& study) {
   return table;
 }
 
-/// The papers end in the physical character; table IV is of the methods alone.
+/// The papers end with the physical character; table IV is of the methods alone.
 Table TableFourWithPhysics(const ExperimentContext& context, const Shum2013Study& study) {
   Table table;
   table.title =
@@ -265,27 +265,27 @@ void AddCoverage(const ExperimentContext& context, std::vector<Table>& tables) {
   tables.push_back(CoverageTable(*LoadDatabase(context).postures, some));
 }
 
-std::set<std::string> AskForParts(Parameters& parameters) {
+std::set<std::string> ReadParts(Parameters& parameters) {
   return parameters.Some("parts", {"data", "table-3", "table-4", "tilt", "ablations"});
 }
 
 }  // namespace
 
-Shum2013Settings AskForShum2013(ExperimentContext& context) {
-  return {AskForObserver(context.parameters),
+Shum2013Settings ReadShum2013Settings(ExperimentContext& context) {
+  return {ReadObserver(context.parameters),
           context.parameters.Integer("clips", context.full ? 8 : 2, 1),
           context.parameters.Integer("frames", context.full ? 450 : 150, 2)};
 }
 
-void AskShum2013(ExperimentContext& context) {
-  AskForParts(context.parameters);
-  AskForShum2013(context);
-  AskForMotions(context);
-  AskForPrior(context.parameters);
+void ReadShum2013Parameters(ExperimentContext& context) {
+  ReadParts(context.parameters);
+  ReadShum2013Settings(context);
+  ReadMotions(context);
+  ReadUsesPrior(context.parameters);
 }
 
 std::vector<Table> RunShum2013(ExperimentContext& context) {
-  const auto parts = AskForParts(context.parameters);
+  const auto parts = ReadParts(context.parameters);
   const bool occluded = parts.contains("table-4") || parts.contains("ablations");
   Shum2013Study study(context, occluded);
   std::vector<Table> tables;
@@ -310,10 +310,10 @@ std::vector<Table> RunShum2013(ExperimentContext& context) {
 }
 
 Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
-  const auto asked = AskForShum2013(context);
-  const auto motions = StudyMotions(context, static_cast<size_t>(asked.clips), asked.frames);
-  Studio studio(context, asked.observer);
-  note = ObserverNote(asked.observer) + motions.note;
+  const auto settings = ReadShum2013Settings(context);
+  const auto motions = StudyMotions(context, static_cast<size_t>(settings.clips), settings.frames);
+  Studio studio(context, settings.observer);
+  note = ObserverNote(settings.observer) + motions.note;
   const auto film = [&](Clutter clutter, const char* kind) {
     std::vector<RecordedPair> pairs;
     for (size_t i = 0; i < motions.clips.size(); ++i) {
@@ -324,7 +324,7 @@ Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
       StageOptions stage;
       stage.name = fmt::format("{} {}", motions.clips[i].name, kind);
       stage.clutter = clutter;
-      stage.frames = asked.frames;
+      stage.frames = settings.frames;
       stage.seed = context.seed * 100 + i;
       pairs.push_back(studio.Record(motions.clips[i], stage));
     }
@@ -352,7 +352,7 @@ Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
   best = method("best", "best");
   best.options.prior = LoadPrior(context);
   best_of_truth = best;
-  KnowObserver(asked.observer, &best);
+  SetObserverCorrection(settings.observer, &best);
 }
 
 }  // namespace ossa::tools

@@ -41,7 +41,7 @@ double Error_cm(const Directions& a, const Directions& b, const BoneLengths& len
   return 100.0 * sum_m / static_cast<double>(kBones);
 }
 
-bool IsWhole(const recon::SkeletonFrame& frame) {
+bool IsComplete(const recon::SkeletonFrame& frame) {
   return !frame.bodies.empty() &&
          std::all_of(frame.bodies[0].joints.begin(), frame.bodies[0].joints.end(),
                      [](const auto& joint) { return joint && joint->position_m.allFinite(); });
@@ -61,7 +61,7 @@ std::optional<DatabaseBound> ComputeBound(const recon::PostureDatabase& database
   DatabaseBound bound;
   double frames = 0.0, yaw_rad = std::numbers::pi;
   for (const auto& frame : truth.frames) {
-    if (!IsWhole(frame)) continue;
+    if (!IsComplete(frame)) continue;
     const Posture seen = recon::ToTrackedPosture(frame.bodies[0]).posture;
     const recon::Placement place = recon::EstimatePlacement(seen, all, yaw_rad);
     yaw_rad = place.yaw_rad;
@@ -87,7 +87,7 @@ Eigen::Vector3d ErrorByLimbs_cm(const recon::SkeletonSequence& truth,
   Eigen::Vector3d sum_cm = Eigen::Vector3d::Zero(), count = Eigen::Vector3d::Zero();
   const size_t frames = std::min(truth.frames.size(), made.frames.size());
   for (size_t f = 0; f < frames; ++f) {
-    if (!IsWhole(truth.frames[f]) || !IsWhole(made.frames[f])) continue;
+    if (!IsComplete(truth.frames[f]) || !IsComplete(made.frames[f])) continue;
     const auto& a = truth.frames[f].bodies[0].joints;
     const auto& b = made.frames[f].bodies[0].joints;
     for (size_t i = 1; i < kJointCount; ++i) {

@@ -11,7 +11,7 @@ class PostureDatabase;  // recon/database/posture_database.h
 
 namespace ossa::tools {
 
-/// What a database can give for a performance, on the performer's own true bones: eq. 18 of Shum
+/// Lower bound of the error with a database, on the performer's own true bones: eq. 18 of Shum
 /// 2013 in centimetres, mean over the frames.
 struct DatabaseBound {
   double nearest_cm = 0.0;   // of the posture that is best under eq. 18, of which nothing is hidden

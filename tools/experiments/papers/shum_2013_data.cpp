@@ -1,5 +1,4 @@
-// Shum 2013, tables I and II: how much there is of the database and of the test data, and how much
-// it moves.
+// Shum 2013, tables I and II: size and variance of the database and of the test data.
 #include <fmt/format.h>
 
 #include <cmath>

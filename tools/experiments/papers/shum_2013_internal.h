@@ -8,7 +8,7 @@ struct Shum2013Settings {
   std::string observer;
   int clips = 0, frames = 0;
 };
-Shum2013Settings AskForShum2013(ExperimentContext& context);
+Shum2013Settings ReadShum2013Settings(ExperimentContext& context);
 
 /// The recordings and methods of `ossa experiment shum-2013`.
 struct Shum2013Study {

@@ -1,5 +1,5 @@
-// Shum 2013, figures 8 and 9, and the terms of eq. 15: what the parameters and the steps of the
-// method cost and bring.
+// Shum 2013, figures 8 and 9, and the terms of eq. 15: cost and gain of the parameters and steps of
+// the method.
 #include <fmt/format.h>
 
 #include <array>
@@ -156,7 +156,8 @@ Table FigureNine(const Shum2013Study& study) {
   return table;
 }
 
-/// What each term of eq. 15, the reliability and the search bring. The paper has method B only.
+/// The gain of each term of eq. 15, of the reliability and of the search. The paper has method B
+/// only.
 Table WithoutEachTerm(const ExperimentContext& context, const Shum2013Study& study) {
   struct Variant {
     const char* name;

@@ -1,5 +1,5 @@
-// Ours: the papers assume a level camera. What a tilted one costs each method, when the floor is
-// known and when only the person tells which way is up.
+// Ours: the papers assume a level camera. The error of each method with a tilted one, if the floor
+// is known and if the vertical is estimated from the person.
 #include <fmt/format.h>
 
 #include <array>

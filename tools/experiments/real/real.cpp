@@ -9,8 +9,8 @@
 #include "depth/base/error.h"
 #include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/real/real_evaluation_internal.h"
 #include "tools/experiments/real/real_holes_internal.h"
-#include "tools/experiments/real/real_judge_internal.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/json/json_text.h"
 
@@ -241,12 +241,12 @@ json StatesToJson(const RealSet& set, const StateScore& s) {
           {"others_within_10cm", s.others_within_10cm}};
 }
 
-std::vector<StillResult> JudgeAll(const RealSet& set, tracker::Tracker& tracker,
-                                  ExperimentContext& context) {
+std::vector<StillResult> EvaluateStillsOfSets(const RealSet& set, tracker::Tracker& tracker,
+                                              ExperimentContext& context) {
   std::vector<StillResult> results;
   for (const RealStill& still : set.stills) {
-    context.StopIfAsked();
-    results.push_back(JudgeStill(set, still, tracker));
+    context.ThrowIfInterrupted();
+    results.push_back(EvaluateStill(set, still, tracker));
     if (context.progress) {
       context.progress(static_cast<double>(results.size()), static_cast<double>(set.stills.size()),
                        set.name);
@@ -268,7 +268,7 @@ struct RealSettings {
   bool fit = true;
 };
 
-RealSettings AskSettings(Parameters& parameters) {
+RealSettings ReadSettings(Parameters& parameters) {
   return {parameters.Integer("frames", 0), parameters.Text("pose_network", ""),
           parameters.Integer("lag", 0, 0, 2), parameters.Flag("fit", true)};
 }
@@ -292,7 +292,7 @@ class RealReport {
       : context_(context), tracker_(tracker) {}
 
   void Add(const RealSet& set) {
-    const auto results = JudgeAll(set, tracker_, context_);
+    const auto results = EvaluateStillsOfSets(set, tracker_, context_);
     const ScoredSet scored = ScoreSet(set, results, true);
     AddJointRows(set, scored, joints_);
     AddScores(set, scored);
@@ -308,8 +308,8 @@ class RealReport {
   }
 
   void Add(const RealVideo& video) {
-    context_.StopIfAsked();
-    const VideoScore score = JudgeVideo(video, tracker_);
+    context_.ThrowIfInterrupted();
+    const VideoScore score = EvaluateVideo(video, tracker_);
     AddRow(video, score, recordings_);
     report_["recordings"].push_back(VideoToJson(video, score));
   }
@@ -327,14 +327,14 @@ class RealReport {
 
   void AddAnklesForFeet(const RealSet& set) {
     const RealSet ankles = WithAnklesForFeet(set);
-    const auto results = JudgeAll(ankles, tracker_, context_);
+    const auto results = EvaluateStillsOfSets(ankles, tracker_, context_);
     AddScores(ankles, ScoreSet(ankles, results, true));
     AddRow(ankles.name, ScoreRawAndFinal(ankles, results), raw_and_final_);
   }
 
   void AddWithHoles(const RealSet& set, Holes holes) {
     const RealSet holed = WithHoles(set, holes, context_.seed);
-    const ScoredSet scored = ScoreSet(holed, JudgeAll(holed, tracker_, context_), true);
+    const ScoredSet scored = ScoreSet(holed, EvaluateStillsOfSets(holed, tracker_, context_), true);
     AddHolesRow(scored, HolesName(holes), holes_);
     for (json row : SetToJson(holed, scored)) {
       row["missing"] = HolesName(holes);
@@ -355,11 +355,11 @@ class RealReport {
 
 }  // namespace
 
-void AskReal(ExperimentContext& context) { AskSettings(context.parameters); }
+void ReadRealParameters(ExperimentContext& context) { ReadSettings(context.parameters); }
 
 std::vector<Table> RunReal(ExperimentContext& context) {
   if (context.shared.empty()) throw InputError("real: expected --shared FOLDER with real/ in it");
-  const RealSettings settings = AskSettings(context.parameters);
+  const RealSettings settings = ReadSettings(context.parameters);
   tracker::Tracker tracker(MakeOptions(context, settings));
   const auto sets = ReadRealSets(context.shared, settings.frames);
   const auto videos = ReadRealVideos(context.shared, settings.frames);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -13,6 +14,7 @@
 #include "depth/base/lower_case.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
+#include "tools/experiments/compare/select_evenly.h"
 
 namespace ossa::tools {
 namespace {
@@ -69,14 +71,9 @@ std::vector<fs::path> ListPngs(const fs::path& folder) {
   return files;
 }
 
-// At most `most` of them, evenly spread; 0: all.
-template <typename T>
-std::vector<T> Spread(std::vector<T> all, int most) {
-  const auto wanted = static_cast<size_t>(most);
-  if (most <= 0 || all.size() <= wanted) return all;
-  std::vector<T> some;
-  for (size_t i = 0; i < wanted; ++i) some.push_back(std::move(all[i * all.size() / wanted]));
-  return some;
+// A limit of stills for SelectEvenly(); 0: none.
+size_t ToLimit(int most) {
+  return most > 0 ? static_cast<size_t>(most) : std::numeric_limits<size_t>::max();
 }
 
 depth::DepthFrame ReadFrame(const fs::path& png, const std::optional<depth::Camera>& camera,
@@ -135,7 +132,7 @@ RealSet MarkedSet(const fs::path& folder, const std::multimap<std::string, Mark>
       set.joint_names.emplace_back(recon::NameOf(mark.joint));
     }
   }
-  for (const fs::path& png : Spread(ListPngs(folder), most)) {
+  for (const fs::path& png : SelectEvenly(ListPngs(folder), ToLimit(most))) {
     RealStill still{.name = png.filename().string(), .frame = ReadFrame(png, std::nullopt, 0.0)};
     still.truth.resize(set.joints.size());
     const auto [first, last] = marks.equal_range(still.name);
@@ -212,7 +209,7 @@ RealSet ItopSet(const fs::path& folder, const std::string& view, int most) {
   const std::string truth = view == "side" ? "S_" : "T_";
   std::vector<size_t> rows(table.rows.size());
   for (size_t r = 0; r < rows.size(); ++r) rows[r] = r;
-  for (const size_t row : Spread(rows, most)) {
+  for (const size_t row : SelectEvenly(rows, ToLimit(most))) {
     const auto sample = table.Number(row, "sample");
     if (!sample)
       throw InputError(fmt::format("{}: line {}: expected a sample's number", table.name, row + 2));
@@ -257,7 +254,7 @@ RealVideo SeatedVideo(const fs::path& folder, int most) {
 
 RealVideo StillsWithoutTruth(const fs::path& folder, int most) {
   RealVideo video{.name = folder.filename().string(), .frames = {}, .stills = true};
-  for (const fs::path& png : Spread(ListPngs(folder), most)) {
+  for (const fs::path& png : SelectEvenly(ListPngs(folder), ToLimit(most))) {
     video.frames.push_back(ReadFrame(png, std::nullopt, 0.0));
   }
   return video;

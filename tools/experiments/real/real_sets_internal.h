@@ -11,8 +11,8 @@
 
 namespace ossa::tools {
 
-/// What a real frame's truth says of one joint: a point of camera space, or of a mark by eye the
-/// line of sight on which it lies, compared at the depth of the judged joint.
+/// The truth of one joint in a real frame: a point of camera space, or of a mark by eye the
+/// line of sight on which it lies, compared at the depth of the evaluated joint.
 struct RealTruth {
   std::optional<Eigen::Vector3d> position_m;  // camera space
   std::optional<Eigen::Vector2d> pixel;       // (u, v)
@@ -23,15 +23,15 @@ struct RealStill {
   std::string name;
   depth::DepthFrame frame;
   std::vector<RealTruth> truth{};  // one entry per joint of the set; both empty: nothing is known
-  /// What a peer says of the same joints, where the set has one.
+  /// Estimates of the same joints by another method, where the set has them.
   std::vector<std::optional<Eigen::Vector3d>> peer_m{};
 };
 
-/// Stills of one kind, judged together.
+/// Stills of one kind, evaluated together.
 struct RealSet {
   std::string name;
   std::string peer{};                      // whose estimates peer_m are; "" = nobody's
-  std::vector<recon::Joint> joints{};      // that are judged
+  std::vector<recon::Joint> joints{};      // that are evaluated
   std::vector<std::string> joint_names{};  // as the set calls them
   std::vector<RealStill> stills{};
   /// Constant offsets are taken from the other half of the stills (even and odd), else, of sets too
@@ -43,7 +43,7 @@ struct RealSet {
 struct RealVideo {
   std::string name;
   std::vector<depth::DepthFrame> frames;
-  bool stills = false;  // the frames have nothing to do with each other
+  bool stills = false;  // the frames are independent
 };
 
 /// Sets with truth below SHARED/real: depth_frames/FOLDER with marks (marks.txt beside the images,

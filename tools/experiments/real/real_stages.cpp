@@ -1,5 +1,5 @@
 // Where each stage of the tracker puts the joints of one body.
-#include "tools/experiments/real/real_judge_internal.h"
+#include "tools/experiments/real/real_evaluation_internal.h"
 
 namespace ossa::tools {
 

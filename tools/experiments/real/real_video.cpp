@@ -1,10 +1,10 @@
-// Recordings without truth: what can be said of a tracker without it.
+// Recordings without truth: quantities that need none.
 #include <algorithm>
 #include <deque>
 
 #include "depth/image/camera.h"
 #include "physics/anthropometry.h"
-#include "tools/experiments/real/real_judge_internal.h"
+#include "tools/experiments/real/real_evaluation_internal.h"
 #include "tools/experiments/real/steadiness_internal.h"
 
 namespace ossa::tools {
@@ -82,12 +82,12 @@ void CountAlone(const RealVideo& video, tracker::Tracker& tracker, VideoScore& s
   }
 }
 
-// Stills are judged each for itself: nothing is said of motion.
-class VideoJudge {
+// Stills are evaluated independently: no quantity of motion.
+class VideoEvaluator {
  public:
-  explicit VideoJudge(bool stills) : stills_(stills) {}
+  explicit VideoEvaluator(bool stills) : stills_(stills) {}
 
-  void Judge(const depth::DepthFrame& frame, tracker::BodyFrame answer) {
+  void AddFrame(const depth::DepthFrame& frame, tracker::BodyFrame answer) {
     ++score_.frames;
     score_.bodies += static_cast<int64_t>(answer.bodies.size());
     score_.one_body += answer.bodies.size() == 1;
@@ -123,33 +123,33 @@ class VideoJudge {
   tracker::BodyFrame before_;
 };
 
-void JudgeStills(const RealVideo& video, tracker::Tracker& tracker, VideoJudge* judge) {
+void EvaluateStills(const RealVideo& video, tracker::Tracker& tracker, VideoEvaluator* evaluator) {
   for (const depth::DepthFrame& frame : video.frames) {
     tracker.Reset();
-    judge->Judge(frame, tracker.Track(frame));
+    evaluator->AddFrame(frame, tracker.Track(frame));
   }
 }
 
-void JudgeMotion(const RealVideo& video, tracker::Tracker& tracker, VideoJudge* judge) {
+void EvaluateMotion(const RealVideo& video, tracker::Tracker& tracker, VideoEvaluator* evaluator) {
   std::deque<const depth::DepthFrame*> waiting;  // for their bodies, which are late by the lag
-  const auto judge_first = [&](tracker::BodyFrame answer) {
-    judge->Judge(*waiting.front(), std::move(answer));
+  const auto add_first = [&](tracker::BodyFrame answer) {
+    evaluator->AddFrame(*waiting.front(), std::move(answer));
     waiting.pop_front();
   };
   tracker.Reset();
   for (const depth::DepthFrame& frame : video.frames) {
     waiting.push_back(&frame);
-    if (auto answer = tracker.TrackWithLag(frame)) judge_first(std::move(*answer));
+    if (auto answer = tracker.TrackWithLag(frame)) add_first(std::move(*answer));
   }
-  while (auto held = tracker.DrainLag()) judge_first(std::move(*held));
+  while (auto held = tracker.DrainLag()) add_first(std::move(*held));
 }
 
 }  // namespace
 
-VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker) {
-  VideoJudge judge(video.stills);
-  (video.stills ? JudgeStills : JudgeMotion)(video, tracker, &judge);
-  VideoScore score = judge.Score();
+VideoScore EvaluateVideo(const RealVideo& video, tracker::Tracker& tracker) {
+  VideoEvaluator evaluator(video.stills);
+  (video.stills ? EvaluateStills : EvaluateMotion)(video, tracker, &evaluator);
+  VideoScore score = evaluator.Score();
   CountAlone(video, tracker, score);
   return score;
 }

@@ -21,7 +21,7 @@ bool IsThroughout(const std::deque<BodyStages>& window, RealStage stage, size_t 
                      [&](const BodyStages& body) { return body.at(stage)[j].has_value(); });
 }
 
-bool HoldsStill(const std::deque<BodyStages>& window, size_t j) {
+bool IsStill(const std::deque<BodyStages>& window, size_t j) {
   if (!IsThroughout(window, RealStage::kRaw, j)) return false;
   Eigen::Vector3d halves[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   for (size_t k = 0; k < kWindow; ++k) {
@@ -64,7 +64,7 @@ void Steadiness::Add(const std::map<int, BodyStages>& bodies) {
 
 void Steadiness::AddJitter(const Window& window) {
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    if (!HoldsStill(window, j)) continue;
+    if (!IsStill(window, j)) continue;
     for (const RealStage stage : kRealStages) {
       if (!IsThroughout(window, stage, j)) continue;
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();

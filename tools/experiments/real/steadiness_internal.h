@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "tools/experiments/real/real_judge_internal.h"
+#include "tools/experiments/real/real_evaluation_internal.h"
 
 namespace ossa::tools {
 

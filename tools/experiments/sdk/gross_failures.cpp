@@ -52,10 +52,10 @@ struct Verdicts {
 
   bool IsInDoubt(int id, std::initializer_list<size_t> joints) const {
     return std::any_of(joints.begin(), joints.end(), [&](size_t j) {
-      return Doubted(BodyOf(before, id), j) || Doubted(BodyOf(now, id), j);
+      return IsDoubted(BodyOf(before, id), j) || IsDoubted(BodyOf(now, id), j);
     });
   }
-  static bool Doubted(const BodyRecord* body, size_t j) {
+  static bool IsDoubted(const BodyRecord* body, size_t j) {
     return body != nullptr && body->joints[j] && body->joints[j]->reliability.value_or(1.0) < 0.5;
   }
 };
@@ -81,7 +81,7 @@ void CountDoubts(const BodyRecord* judged, GrossFailures& out) {
   for (size_t j = 0; judged != nullptr && j < kJointCount; ++j) {
     if (!At(*judged, j)) continue;
     ++out.joints;
-    out.doubted += Verdicts::Doubted(judged, j) ? 1 : 0;
+    out.doubted += Verdicts::IsDoubted(judged, j) ? 1 : 0;
   }
 }
 

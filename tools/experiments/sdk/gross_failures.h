@@ -14,7 +14,7 @@ struct GrossFailures {
   int64_t wrong_bones = 0;  // a bone 40 % off its median over the recording
   int64_t noticed = 0;  // jumps and snaps with a joint of reliability below one half, in the frame
                         // they lead to or the one they come from: one of the two is wrong
-  int64_t joints = 0;   // judged
+  int64_t joints = 0;   // evaluated
   int64_t doubted = 0;  // of those: with a reliability below one half
   double jitter_cm = 0.0;  // mean length of second differences, over all joints and frames
 

@@ -58,16 +58,18 @@ OpenDatabase LoadDatabase(const ExperimentContext& context) {
   return database;
 }
 
-bool AskForPrior(Parameters& parameters) { return parameters.Integer("best_prior", 1, 0, 1) != 0; }
+bool ReadUsesPrior(Parameters& parameters) {
+  return parameters.Integer("best_prior", 1, 0, 1) != 0;
+}
 
 std::shared_ptr<const recon::PosturePrior> LoadPrior(ExperimentContext& context) {
-  if (!AskForPrior(context.parameters) || !context.database.empty()) return nullptr;
+  if (!ReadUsesPrior(context.parameters) || !context.database.empty()) return nullptr;
   static const auto kShipped = std::make_shared<const recon::PosturePrior>(
       recon::PosturePrior::Load(tracker::ShippedFile(recon::kShippedPrior)));
   return kShipped;
 }
 
-void KnowObserver(const std::string& observer, MethodRun* best) {
+void SetObserverCorrection(const std::string& observer, MethodRun* best) {
   if (observer != "forest") return;
   best->options.learned_file = tracker::ShippedFile("body.ossagp");
   best->refines = true;
@@ -85,7 +87,7 @@ recon::SkeletonSequence RunMethod(const ExperimentContext& context, const Method
   const std::string key = ComputeKey(context, run) + " on " + ContentHash(FormatSequence(observed));
   const std::string text = context.Cached(key, [&] {
     const auto go_on = [&](size_t) {
-      context.StopIfAsked();
+      context.ThrowIfInterrupted();
       return true;
     };
     auto made = recon::ReconstructSequence(observed, run.options, go_on);
@@ -112,7 +114,7 @@ std::vector<PairedTracks> RunOverClips(const ExperimentContext& context, const M
                                        const std::vector<RecordedPair>& clips) {
   std::vector<PairedTracks> pairs;
   for (const RecordedPair& clip : clips) {
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     MethodRun with = run;
     with.options.best.refined_joints = run.refines && !clip.refined.frames.empty();
     const auto made =
@@ -166,13 +168,13 @@ std::filesystem::path LearnWithout(const ExperimentContext& context,
   if (pairs.empty()) throw InputError("learning: expected pairs of postures, found none");
   const auto path = context.out / "cache" / (ContentHash(key) + ".ossagp");
   if (std::filesystem::exists(path)) return path;
-  context.StopIfAsked();
+  context.ThrowIfInterrupted();
   if (context.progress) {
     context.progress(0, 1,
                      fmt::format("learning from {} pairs without {}", pairs.size(), left_out));
   }
   const auto models = recon::LearnedModels::Learn(pairs, options, [&](int) {
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     return true;
   });
   std::filesystem::create_directories(path.parent_path());

@@ -20,7 +20,7 @@ struct OpenDatabase {
 /// --database of the study, else the shipped one.
 OpenDatabase LoadDatabase(const ExperimentContext& context);
 /// The parameter `best_prior`.
-bool AskForPrior(Parameters& parameters);
+bool ReadUsesPrior(Parameters& parameters);
 /// What best completes postures by: the shipped prior, or nothing where the study names a database
 /// or says best_prior = 0, so that it is the database's postures.
 std::shared_ptr<const recon::PosturePrior> LoadPrior(ExperimentContext& context);
@@ -37,7 +37,7 @@ struct MethodRun {
 /// best as `ossa track` runs it: the shipped forest's joints are refined at the depth image, and it
 /// knows their systematic errors.
 /// `observer` is a study's: "forest" or "simulated".
-void KnowObserver(const std::string& observer, MethodRun* best);
+void SetObserverCorrection(const std::string& observer, MethodRun* best);
 
 /// The same, and the physical character follows: the last stage of all four papers.
 MethodRun WithPhysics(MethodRun run);

@@ -94,7 +94,7 @@ std::vector<std::string> ChosenData(ExperimentContext& context) {
 }
 
 /// The options but for what is read from files.
-recon::ReconstructorOptions AskForMethodOptions(ExperimentContext& context) {
+recon::ReconstructorOptions ReadMethodParameters(ExperimentContext& context) {
   recon::ReconstructorOptions options;
   options.seed = context.seed;
   const auto is_on = [&](const char* stage) {
@@ -110,13 +110,13 @@ recon::ReconstructorOptions AskForMethodOptions(ExperimentContext& context) {
 }
 
 recon::ReconstructorOptions MakeMethodOptions(ExperimentContext& context) {
-  recon::ReconstructorOptions options = AskForMethodOptions(context);
+  recon::ReconstructorOptions options = ReadMethodParameters(context);
   options.database = LoadDatabase(context).postures;
   options.prior = LoadPrior(context);
   return options;
 }
 
-size_t AskForEveryNthClip(ExperimentContext& context) {
+size_t ReadEveryNthClip(ExperimentContext& context) {
   return static_cast<size_t>(context.parameters.Integer("every_nth_clip", 1, 1));
 }
 
@@ -126,34 +126,35 @@ class SdkStudy {
       : context_(context),
         methods_(ChosenMethods(context)),
         data_(ChosenData(context)),
-        every_(AskForEveryNthClip(context)),
+        every_(ReadEveryNthClip(context)),
         options_(MakeMethodOptions(context)) {}
 
   std::vector<Table> Run() {
-    ExpectRecordings();
-    if (Wants("correct") || Wants("incorrect")) RunUiPrmd();
-    if (Wants("itop")) RunItop();
-    if (Wants("linear-bound")) studies_.push_back(std::move(linear_bound_));
+    RequireRecordings();
+    if (IsRequested("correct") || IsRequested("incorrect")) RunUiPrmd();
+    if (IsRequested("itop")) RunItop();
+    if (IsRequested("linear-bound")) studies_.push_back(std::move(linear_bound_));
     if (!methods_table_.rows.empty()) {
       studies_.insert(studies_.begin(), std::move(methods_table_));
     }
-    if (Wants("failures")) studies_.push_back(GrossFailureTable(context_, methods_, options_));
+    if (IsRequested("failures"))
+      studies_.push_back(GrossFailureTable(context_, methods_, options_));
     return std::move(studies_);
   }
 
  private:
   // The last of them are read after hours.
-  void ExpectRecordings() const {
+  void RequireRecordings() const {
     std::vector<RecordingSet> wanted;
-    if (Wants("correct") || Wants("incorrect")) wanted.push_back(RecordingSet::kUiPrmd);
-    if (Wants("itop")) wanted.push_back(RecordingSet::kItop);
-    if (Wants("failures")) {
+    if (IsRequested("correct") || IsRequested("incorrect")) wanted.push_back(RecordingSet::kUiPrmd);
+    if (IsRequested("itop")) wanted.push_back(RecordingSet::kItop);
+    if (IsRequested("failures")) {
       wanted.insert(wanted.end(), {RecordingSet::kWithoutTruth, RecordingSet::kKeraal});
     }
-    tools::ExpectRecordings(context_.shared, wanted);
+    tools::RequireRecordings(context_.shared, wanted);
   }
 
-  bool Wants(const char* name) const {
+  bool IsRequested(const char* name) const {
     return std::find(data_.begin(), data_.end(), name) != data_.end();
   }
 
@@ -162,7 +163,7 @@ class SdkStudy {
     auto wrong = LoadUiPrmd(context_.shared, true);
     std::move(wrong.begin(), wrong.end(), std::back_inserter(pairs));
     for (const bool incorrect : {false, true}) {
-      if (!Wants(incorrect ? "incorrect" : "correct")) continue;
+      if (!IsRequested(incorrect ? "incorrect" : "correct")) continue;
       size_t n = 0;
       RunOn(incorrect ? "UI-PRMD incorrect" : "UI-PRMD correct",
             LeaveOneSubjectOut(pairs, [&](const RecordedPair& pair) {
@@ -181,7 +182,7 @@ class SdkStudy {
   }
 
   void RunOn(const std::string& data, const std::vector<Fold>& folds) {
-    if (Wants("linear-bound")) AddLinearBound(data, folds, &linear_bound_);
+    if (IsRequested("linear-bound")) AddLinearBound(data, folds, &linear_bound_);
     if (folds.size() > 2) RunStudiesOfFolds(data, folds);
     std::vector<MethodScore> scores;
     for (const std::string& method : methods_) {
@@ -189,17 +190,17 @@ class SdkStudy {
       methods_table_.rows.push_back(MethodRow(data, scores.back()));
     }
     if (!data.starts_with("UI-PRMD")) return;
-    if (Wants("hardest")) studies_.push_back(HardestTable(data, scores));
-    if (Wants("honest")) studies_.push_back(HonestTable(data, scores));
+    if (IsRequested("hardest")) studies_.push_back(HardestTable(data, scores));
+    if (IsRequested("honest")) studies_.push_back(ReliableClipsTable(data, scores));
   }
 
   // Those that leave subjects out within what is left: two folds are too few.
   void RunStudiesOfFolds(const std::string& data, const std::vector<Fold>& folds) {
-    if (Wants("nested")) {
+    if (IsRequested("nested")) {
       studies_.push_back(RunNested(context_, data, folds, options_, &methods_table_));
     }
-    if (Wants("lag")) studies_.push_back(RunLag(context_, data, folds, options_));
-    if (Wants("incremental")) studies_.push_back(RunIncremental(context_, folds, options_));
+    if (IsRequested("lag")) studies_.push_back(RunLag(context_, data, folds, options_));
+    if (IsRequested("incremental")) studies_.push_back(RunIncremental(context_, folds, options_));
   }
 
   ExperimentContext& context_;
@@ -214,13 +215,13 @@ class SdkStudy {
 
 }  // namespace
 
-void AskSdk(ExperimentContext& context) {
+void ReadSdkParameters(ExperimentContext& context) {
   ChosenMethods(context);
   ChosenData(context);
-  AskForEveryNthClip(context);
-  AskForLagClips(context);
-  AskForMethodOptions(context);
-  AskForPrior(context.parameters);
+  ReadEveryNthClip(context);
+  ReadLagClips(context);
+  ReadMethodParameters(context);
+  ReadUsesPrior(context.parameters);
 }
 
 std::vector<Table> RunSdk(ExperimentContext& context) { return SdkStudy(context).Run(); }

@@ -64,7 +64,7 @@ Table GrossFailureTable(const ExperimentContext& context, const std::vector<std:
                    "wrong bones", "noticed, %", "doubted, %", "jitter, cm"};
   for (const auto& [source, clips] : Recordings(context)) {
     for (const std::string& method : methods) {
-      if (Learns(method) && !LearnsCorrection(method)) continue;  // nothing to learn from
+      if (IsLearned(method) && !HasOptionalCorrection(method)) continue;  // nothing to learn from
       GrossFailures raw, made;
       for (const recon::SkeletonSequence& clip : clips) {
         MethodRun run{method, options, {}};

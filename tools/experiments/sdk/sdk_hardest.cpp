@@ -58,7 +58,21 @@ Table HardestTable(const std::string& data, const std::vector<MethodScore>& scor
   return table;
 }
 
-Table HonestTable(const std::string& data, const std::vector<MethodScore>& scores) {
+namespace {
+
+std::vector<std::string> MakeRow(const char* name, const std::string& method,
+                                 const std::vector<ClipMetrics>& clips) {
+  return {name,
+          method,
+          std::to_string(clips.size()),
+          MeanAndMedian(clips, &ClipMetrics::parent_relative_error_cm),
+          MeanAndMedian(clips, &ClipMetrics::offset_removed_error_cm),
+          MeanAndMedian(clips, &ClipMetrics::acceleration_error_cm_per_frame2)};
+}
+
+}  // namespace
+
+Table ReliableClipsTable(const std::string& data, const std::vector<MethodScore>& scores) {
   Table table;
   table.title = data + ": without what says little of a sensor, cm";
   table.columns = {"clips of", "method", "clips", "eq. 18", "offset removed", "acceleration"};
@@ -88,10 +102,7 @@ Table HonestTable(const std::string& data, const std::vector<MethodScore>& score
       for (const ClipMetrics& clip : score.clips) {
         if (!leaves_out(clip.name)) kept.push_back(clip);
       }
-      table.rows.push_back({name, score.method, std::to_string(kept.size()),
-                            MeanAndMedian(kept, &ClipMetrics::parent_relative_error_cm),
-                            MeanAndMedian(kept, &ClipMetrics::offset_removed_error_cm),
-                            MeanAndMedian(kept, &ClipMetrics::acceleration_error_cm_per_frame2)});
+      table.rows.push_back(MakeRow(name, score.method, kept));
     }
   }
   table.note =

@@ -82,9 +82,9 @@ inline constexpr const char* kBestUnlearned = "best-learned-none";
 inline constexpr std::array kRawLater = {"raw-1-late", "raw-2-late"};
 
 /// Methods that learn of pairs; false as well of "raw" and "butterworth".
-bool Learns(const std::string& method);
+bool IsLearned(const std::string& method);
 /// ... a correction only, without which they work, too.
-bool LearnsCorrection(const std::string& method);
+bool HasOptionalCorrection(const std::string& method);
 
 /// A row of the table of methods.
 std::vector<std::string> MethodRow(const std::string& data, const MethodScore& score);
@@ -98,7 +98,7 @@ Table RunNested(ExperimentContext& context, const std::string& data, const std::
                 const recon::ReconstructorOptions& options, Table* methods);
 
 /// The parameter `lag_every_nth_clip`: of RunLag().
-size_t AskForLagClips(ExperimentContext& context);
+size_t ReadLagClips(ExperimentContext& context);
 
 /// sdk_lag.cpp: `best` with frames of lag, the low pass with its best cut-off, widths chosen
 /// without the person tested. Of a long study all widths, too.
@@ -115,7 +115,7 @@ Table HardestTable(const std::string& data, const std::vector<MethodScore>& scor
 
 /// sdk_hardest.cpp: all clips of UI-PRMD, and without the person whose truth is aligned worst and
 /// the clips in which sensor and markers disagree.
-Table HonestTable(const std::string& data, const std::vector<MethodScore>& scores);
+Table ReliableClipsTable(const std::string& data, const std::vector<MethodScore>& scores);
 
 /// linear_bound.cpp: what the best filter of fixed weights leaves.
 Table EmptyLinearBound();

@@ -135,9 +135,9 @@ void AddLeft(const Left& one, Left& sum) {
 }
 
 /// The smoothings over the fold's tested clips, learned without whoever is in them. Cached.
-std::vector<Left> TryAll(ExperimentContext& context, const Fold& fold,
-                         const std::vector<Smoothing>& smoothings,
-                         const recon::ReconstructorOptions& options) {
+std::vector<Left> EvaluateAll(ExperimentContext& context, const Fold& fold,
+                              const std::vector<Smoothing>& smoothings,
+                              const recon::ReconstructorOptions& options) {
   std::string key =
       fmt::format("lag {} {} {}", ComputeCodeKey(), fold.key, ComputeOptionsKey(context, options));
   for (const Smoothing& s : smoothings) {
@@ -170,11 +170,10 @@ std::vector<Left> TryAll(ExperimentContext& context, const Fold& fold,
 }
 
 /// Of each person: what the smoothings make of the others, every `every`-th clip.
-std::map<std::string, std::vector<Left>> TryOnOthers(ExperimentContext& context,
-                                                     const std::vector<Fold>& folds,
-                                                     const std::vector<Smoothing>& smoothings,
-                                                     const recon::ReconstructorOptions& options,
-                                                     size_t every) {
+std::map<std::string, std::vector<Left>> EvaluateOnOthers(
+    ExperimentContext& context, const std::vector<Fold>& folds,
+    const std::vector<Smoothing>& smoothings, const recon::ReconstructorOptions& options,
+    size_t every) {
   std::map<std::string, std::vector<Left>> others;
   for (const Fold& fold : folds) others[fold.name].resize(smoothings.size());
   for (size_t a = 0; a < folds.size(); ++a) {
@@ -184,7 +183,7 @@ std::map<std::string, std::vector<Left>> TryOnOthers(ExperimentContext& context,
       for (size_t i = 0; i < both.test.size(); i += every) some.push_back(both.test[i]);
       both.test = std::move(some);
       both.key += fmt::format(" every {}", every);
-      const auto lefts = TryAll(context, both, smoothings, options);
+      const auto lefts = EvaluateAll(context, both, smoothings, options);
       for (size_t s = 0; s < lefts.size(); ++s) {
         for (size_t c = 0; c < lefts[s].clips.size(); ++c) {
           const bool of_a = lefts[s].clips[c].name.starts_with(folds[a].name + "/");
@@ -239,23 +238,23 @@ std::vector<std::string> RowOf(const std::string& name, const Left& left, double
 
 }  // namespace
 
-size_t AskForLagClips(ExperimentContext& context) {
+size_t ReadLagClips(ExperimentContext& context) {
   return static_cast<size_t>(context.parameters.Integer("lag_every_nth_clip", 5, 1));
 }
 
 Table RunLag(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
              const recon::ReconstructorOptions& options) {
-  const size_t every = AskForLagClips(context);
+  const size_t every = ReadLagClips(context);
   const std::vector<Family> families = Families();
   std::vector<Smoothing> smoothings;
   for (const Family& family : families) {
     smoothings.insert(smoothings.end(), family.smoothings.begin(), family.smoothings.end());
   }
-  const auto others = TryOnOthers(context, folds, smoothings, options, every);
+  const auto others = EvaluateOnOthers(context, folds, smoothings, options, every);
   std::vector<Left> all(smoothings.size()), nested(families.size());
   std::vector<std::map<std::string, int>> chosen(families.size());
   for (const Fold& fold : folds) {
-    const auto lefts = TryAll(context, fold, smoothings, options);
+    const auto lefts = EvaluateAll(context, fold, smoothings, options);
     for (size_t s = 0; s < smoothings.size(); ++s) AddLeft(lefts[s], all[s]);
     size_t begin = 0;
     for (size_t k = 0; k < families.size(); ++k) {

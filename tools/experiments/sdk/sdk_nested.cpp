@@ -58,9 +58,9 @@ std::vector<recon::BestConstants> SettingsAround(const recon::BestConstants& fix
 using ClipsBySetting = std::vector<std::vector<ClipMetrics>>;
 
 /// All settings over the tested clips, one correction for them all. Cached.
-ClipsBySetting TryAll(ExperimentContext& context, const Fold& fold,
-                      const std::vector<recon::BestConstants>& settings,
-                      const recon::ReconstructorOptions& options) {
+ClipsBySetting EvaluateAll(ExperimentContext& context, const Fold& fold,
+                           const std::vector<recon::BestConstants>& settings,
+                           const recon::ReconstructorOptions& options) {
   std::string key = fmt::format("nested {} {} {}", ComputeCodeKey(), fold.key,
                                 ComputeOptionsKey(context, options));
   for (const auto& setting : settings) key.append(" ").append(DescribeConstants(setting));
@@ -82,15 +82,14 @@ ClipsBySetting TryAll(ExperimentContext& context, const Fold& fold,
 }
 
 /// Of each fold: what the settings make of the other people.
-std::map<std::string, ClipsBySetting> TryOnOthers(ExperimentContext& context,
-                                                  const std::vector<Fold>& folds,
-                                                  const std::vector<recon::BestConstants>& settings,
-                                                  const recon::ReconstructorOptions& options) {
+std::map<std::string, ClipsBySetting> EvaluateOnOthers(
+    ExperimentContext& context, const std::vector<Fold>& folds,
+    const std::vector<recon::BestConstants>& settings, const recon::ReconstructorOptions& options) {
   std::map<std::string, ClipsBySetting> others;
   for (const Fold& fold : folds) others[fold.name].resize(settings.size());
   for (size_t a = 0; a < folds.size(); ++a) {
     for (size_t b = a + 1; b < folds.size(); ++b) {
-      const auto clips = TryAll(context, WithoutBoth(folds[a], folds[b]), settings, options);
+      const auto clips = EvaluateAll(context, WithoutBoth(folds[a], folds[b]), settings, options);
       for (size_t s = 0; s < settings.size(); ++s) {
         for (const ClipMetrics& clip : clips[s]) {
           const bool of_a = clip.name.starts_with(folds[a].name + "/");
@@ -103,7 +102,7 @@ std::map<std::string, ClipsBySetting> TryOnOthers(ExperimentContext& context,
 }
 
 /// The three errors of the table as one number without a unit: the logarithm of their product.
-double Badness(const std::vector<ClipMetrics>& clips) {
+double ComputeLogError(const std::vector<ClipMetrics>& clips) {
   double sum = 0.0;
   for (const auto member :
        {&ClipMetrics::parent_relative_error_cm, &ClipMetrics::offset_removed_error_cm,
@@ -118,10 +117,10 @@ recon::BestConstants ChosenOn(const ClipsBySetting& clips,
                               const std::vector<recon::BestConstants>& settings) {
   recon::BestConstants chosen = settings[0];
   for (const Choice& choice : Choices()) {
-    double least = Badness(clips[0]);
+    double least = ComputeLogError(clips[0]);
     for (size_t s = 1; s < settings.size(); ++s) {
       if (settings[s].*choice.member == settings[0].*choice.member) continue;
-      if (const double badness = Badness(clips[s]); badness < least) {
+      if (const double badness = ComputeLogError(clips[s]); badness < least) {
         least = badness;
         chosen.*choice.member = settings[s].*choice.member;
       }
@@ -135,7 +134,7 @@ recon::BestConstants ChosenOn(const ClipsBySetting& clips,
 Table RunNested(ExperimentContext& context, const std::string& data, const std::vector<Fold>& folds,
                 const recon::ReconstructorOptions& options, Table* methods) {
   const auto settings = SettingsAround(options.best.constants);
-  const auto others = TryOnOthers(context, folds, settings, options);
+  const auto others = EvaluateOnOthers(context, folds, settings, options);
   Table table;
   table.title = "Constants of best chosen on the other people, " + data;
   table.columns = {"left out"};

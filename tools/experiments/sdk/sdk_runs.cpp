@@ -58,7 +58,7 @@ int ParseLag(const std::string& method) {
 }
 
 // Of these names some are no methods of their own.
-std::string MethodBehind(std::string method) {
+std::string BaseMethod(std::string method) {
   if (method.ends_with(kPlusPhysics)) method.resize(method.size() - kPlusPhysics.size());
   const bool is_best = ParseLag(method) != 0 || method == kBestUnlearned;
   return is_best ? std::string(recon::kDefaultMethod) : method;
@@ -120,9 +120,9 @@ std::string ComputeOptionsKey(const ExperimentContext& context,
 recon::ReconstructorOptions LearnFold(const Fold& fold, const std::string& method,
                                       const recon::ReconstructorOptions& options) {
   recon::ReconstructorOptions with = options;
-  if (!Learns(method)) return with;
+  if (!IsLearned(method)) return with;
   recon::LearnOptions learn;
-  learn.processes = !LearnsCorrection(method);
+  learn.processes = !HasOptionalCorrection(method);
   if (learn.processes) learn.correction.centres = 0;
   learn.mixture.seed = learn.correction.seed = options.seed;
   with.learned = std::make_shared<const recon::LearnedModels>(
@@ -163,14 +163,14 @@ std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json) {
   return clips;
 }
 
-bool Learns(const std::string& method) {
+bool IsLearned(const std::string& method) {
   if (method == kBestUnlearned) return false;
-  const recon::MethodInfo* info = recon::FindMethod(MethodBehind(method));
+  const recon::MethodInfo* info = recon::FindMethod(BaseMethod(method));
   return info != nullptr && info->learned != recon::Reads::kNothing;
 }
 
-bool LearnsCorrection(const std::string& method) {
-  const recon::MethodInfo* info = recon::FindMethod(MethodBehind(method));
+bool HasOptionalCorrection(const std::string& method) {
+  const recon::MethodInfo* info = recon::FindMethod(BaseMethod(method));
   return info != nullptr && info->learned == recon::Reads::kOptional;
 }
 
@@ -232,7 +232,7 @@ recon::SkeletonSequence RunMethod(const recon::SkeletonSequence& observed,
     if (method == kRawLater[k]) return Delayed(observed, k + 1);
   }
   recon::ReconstructorOptions with = options;
-  with.method = MethodBehind(method);
+  with.method = BaseMethod(method);
   recon::BoneLengthsById bones;
   if (method == kBestOffline) bones = recon::MeasureBones(observed, with);
   return recon::SmoothSequence(recon::ReconstructSequence(observed, with, {}, bones),

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SensorStatistics OfRealFrames(const fs::path& shared) {
+SensorStatistics MeasureRealFrames(const fs::path& shared) {
   // The camera's focal length at 640 pixels; skeltrack's is the SDK's, PCL's the ROS driver's.
   const std::array<std::pair<const char*, double>, 3> kFolders = {
       {{"skeltrack_v1", 575}, {"pcl_five_people", 525}, {"pcl_person", 525}}};
@@ -52,8 +52,8 @@ std::vector<recon::RigPose> Bank(const ExperimentContext& context) {
 }
 
 // People in rooms, by the options' sensor.
-SensorStatistics OfRendered(ExperimentContext& context, FrameOptions options,
-                            const std::vector<View>& views, int64_t frames) {
+SensorStatistics MeasureRendered(ExperimentContext& context, FrameOptions options,
+                                 const std::vector<View>& views, int64_t frames) {
   SensorStatistics statistics;
   const auto bank = Bank(context);
   options.split = Split::kTest;
@@ -64,7 +64,7 @@ SensorStatistics OfRendered(ExperimentContext& context, FrameOptions options,
     const FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()), bank, options);
     FrameMaker maker(studio);
     for (int64_t i = 0; i < frames / static_cast<int64_t>(views.size()); ++i) {
-      context.StopIfAsked();
+      context.ThrowIfInterrupted();
       GatherFrame(maker.Make(i), statistics);
     }
   }
@@ -77,7 +77,7 @@ constexpr double kItopShrink = 2.4;       // factor; measured, the same README
 constexpr double kItopFov_deg = 45.6;     // derived: 2 atan(50 / 119.05)
 constexpr double kAzureFov_deg = 64.8;    // derived: 2 atan(320 / 504), NFOV of an Azure Kinect
 
-std::optional<SensorStatistics> OfItop(const fs::path& shared) {
+std::optional<SensorStatistics> MeasureItop(const fs::path& shared) {
   const fs::path folder = shared / "real/itop_depth/side";
   if (!fs::is_directory(folder)) return std::nullopt;
   SensorStatistics statistics;
@@ -88,7 +88,7 @@ std::optional<SensorStatistics> OfItop(const fs::path& shared) {
   return statistics;
 }
 
-std::optional<SensorStatistics> OfAzure(const fs::path& shared) {
+std::optional<SensorStatistics> MeasureAzure(const fs::path& shared) {
   const fs::path recording = shared / "real/recordings/azure_kinect.mkv";
   if (!fs::exists(recording)) return std::nullopt;
   SensorStatistics statistics;
@@ -140,37 +140,37 @@ Table OtherSensors(ExperimentContext& context, int64_t frames) {
   itop.width = itop.height = 100;
   itop.shrink = kItopShrink;
   itop.fov_deg = kItopFov_deg;
-  AddRows("xtion", OfItop(context.shared), OfRendered(context, itop, {View::kFront}, frames),
-          table);
+  AddRows("xtion", MeasureItop(context.shared),
+          MeasureRendered(context, itop, {View::kFront}, frames), table);
   FrameOptions azure;
   azure.sensors = {depth::SensorKind::kAzure};
   azure.width = 640;
   azure.height = 576;
   azure.fov_deg = kAzureFov_deg;
-  AddRows("azure", OfAzure(context.shared), OfRendered(context, azure, {View::kNear}, frames / 4),
-          table);
+  AddRows("azure", MeasureAzure(context.shared),
+          MeasureRendered(context, azure, {View::kNear}, frames / 4), table);
   for (const auto kind : {depth::SensorKind::kKinectV2, depth::SensorKind::kD4xx}) {
     FrameOptions options;
     options.sensors = {kind};
     AddRows(std::string(depth::kSensorNames[static_cast<size_t>(kind)]), std::nullopt,
-            OfRendered(context, options, {View::kFront}, frames / 4), table);
+            MeasureRendered(context, options, {View::kFront}, frames / 4), table);
   }
   return table;
 }
 
-int AskForFrames(Parameters& parameters) { return parameters.Integer("frames", 24, 2, 10'000); }
+int ReadFrameCount(Parameters& parameters) { return parameters.Integer("frames", 24, 2, 10'000); }
 
 }  // namespace
 
-void AskSensor(ExperimentContext& context) { AskForFrames(context.parameters); }
+void ReadSensorParameters(ExperimentContext& context) { ReadFrameCount(context.parameters); }
 
 std::vector<Table> RunSensor(ExperimentContext& context) {
-  const int frames = AskForFrames(context.parameters);
+  const int frames = ReadFrameCount(context.parameters);
   if (context.shared.empty()) {
     throw InputError("experiment sensor: expected --shared FOLDER with real/depth_frames");
   }
-  const SensorStatistics real = OfRealFrames(context.shared);
-  const SensorStatistics made = OfRendered(context, {}, {View::kNear, View::kFront}, frames);
+  const SensorStatistics real = MeasureRealFrames(context.shared);
+  const SensorStatistics made = MeasureRendered(context, {}, {View::kNear, View::kFront}, frames);
   Table bands{"The sensor by distance",
               {"distance m", "step / z^2, real", "rendered", "plane residual mm, real", "rendered"},
               {},

@@ -18,13 +18,13 @@ struct Walled {
   const char* source;
 };
 
-double OfKinectV2(double z_m) { return 1.5 - 0.5 * z_m + 0.3 * z_m * z_m; }
+double KinectV2Deviation_mm(double z_m) { return 1.5 - 0.5 * z_m + 0.3 * z_m * z_m; }
 // Of its maker's formula: 0.08 px of 1280, 65° wide, 55 mm apart.
-double OfD415(double z_m) {
+double D415Deviation_mm(double z_m) {
   constexpr double kFocal_px = 1004.0, kBaseline_m = 0.055, kDisparity_px = 0.08;
   return 1000 * z_m * z_m * kDisparity_px / (kFocal_px * kBaseline_m);
 }
-double AtMostOfAzure(double /*z_m*/) { return 17.0; }
+double AzureLimit_mm(double /*z_m*/) { return 17.0; }
 struct Wall {
   double deviation_mm = 0, read = 0;
 };
@@ -55,9 +55,9 @@ Table SensorsBeforeWalls(uint64_t seed) {
     return depth::Camera{width, height, focal_px, focal_px, 0.5 * width, 0.5 * height};
   };
   const std::array<Walled, 3> kWalled = {
-      {{"kinect-v2", camera(512, 424, 366), OfKinectV2, "Fankhauser et al. 2015"},
-       {"azure", camera(640, 576, 504), AtMostOfAzure, "at most, by specification"},
-       {"d4xx", camera(1280, 720, 1004), OfD415, "maker's formula, 0.08 px"}}};
+      {{"kinect-v2", camera(512, 424, 366), KinectV2Deviation_mm, "Fankhauser et al. 2015"},
+       {"azure", camera(640, 576, 504), AzureLimit_mm, "at most, by specification"},
+       {"d4xx", camera(1280, 720, 1004), D415Deviation_mm, "maker's formula, 0.08 px"}}};
   Table table{"Before a facing wall: standard deviation, mm",
               {"sensor", "1 m: published", "rendered", "2 m: published", "rendered",
                "4 m: published", "rendered", "read at 4 m, %", "published by"},

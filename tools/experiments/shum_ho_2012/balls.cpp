@@ -15,7 +15,7 @@ using recon::Joint;
 using recon::Posture;
 
 /// Speed that carries a ball from one place to another in `time_s` under gravity.
-Vector3d Aim(const Vector3d& from, const Vector3d& to, double time_s) {
+Vector3d ComputeLaunchVelocity(const Vector3d& from, const Vector3d& to, double time_s) {
   return (to - from) / time_s + Vector3d(0.0, 0.5 * 9.81 * time_s, 0.0);
 }
 
@@ -52,12 +52,12 @@ SceneResult MeetBalls(const Actors& actors, uint64_t seed) {
       const Posture now = stage.world.StateOf(person).posture;
       const Vector3d goal =
           now[Joint::kSpine] + Vector3d(0.25 * uniform(random), 0.1 + 0.4 * uniform(random), 0.0);
-      ball.velocity_m_s = Aim(ball.position_m, goal, 0.5);
+      ball.velocity_m_s = ComputeLaunchVelocity(ball.position_m, goal, 0.5);
       stage.world.AddObject(ball);
     }
     stage.Advance({motion[f]}, "balls of random sizes");
     calm.Advance({motion[f]}, "");
-    hits += stage.Struck(person, {}) ? 1 : 0;
+    hits += stage.IsStruck(person, {}) ? 1 : 0;
     at_end = 0.0;
     const Posture a = stage.world.StateOf(person).posture, b = calm.world.StateOf(twin).posture;
     for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -96,12 +96,12 @@ SceneResult Dodge(const Actors& actors, uint64_t seed) {
         ObjectOptions ball = Ball(0.16 + 0.04 * uniform(random), 100.0);
         const Vector3d head = stage.world.StateOf(person).posture[Joint::kHead];
         ball.position_m = head + Vector3d(0.8 * uniform(random), -0.1, 3.2);
-        ball.velocity_m_s = Aim(ball.position_m, head, 0.55);
+        ball.velocity_m_s = ComputeLaunchVelocity(ball.position_m, head, 0.55);
         stage.world.AddObject(ball);
       }
       stage.Advance({pose}, dodging ? "dodging on" : "dodging off");
-      head_hits[dodging ? 1 : 0] += stage.Struck(person, {3}) ? 1 : 0;
-      forearm_hits[dodging ? 1 : 0] += stage.Struck(person, {6, 7, 10, 11}) ? 1 : 0;
+      head_hits[dodging ? 1 : 0] += stage.IsStruck(person, {3}) ? 1 : 0;
+      forearm_hits[dodging ? 1 : 0] += stage.IsStruck(person, {6, 7, 10, 11}) ? 1 : 0;
     }
     pictures.insert(pictures.end(), stage.pictures().begin(), stage.pictures().end());
     if (dodging) AddCommonNumbers(stage, result);

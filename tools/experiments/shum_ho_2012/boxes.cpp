@@ -138,6 +138,32 @@ int CountMoved(const Stage& stage, const std::vector<int>& boxes,
   }));
 }
 
+/// The motion of the box of CarryABox().
+struct CarriedBox {
+  Vector3d start_m;
+  Vector3d end_m = start_m;
+  int in_the_air = 0;  // frames
+  double highest_m = 0.0, tilt_rad = 0.0;
+
+  void Add(const physics::ObjectState& state) {
+    end_m = state.position_m;
+    const double lifted_m = state.position_m.y() - start_m.y();
+    highest_m = std::max(highest_m, lifted_m);
+    if (lifted_m > 0.05) ++in_the_air;
+    tilt_rad =
+        std::max(tilt_rad, std::acos(std::min(1.0, (state.orientation * Vector3d::UnitY()).y())));
+  }
+  std::vector<SceneNumber> Criteria() const {
+    const double carried_m = std::abs(end_m.x() - start_m.x());
+    return {
+        {"frames with the box in the air", std::to_string(in_the_air), ">= 60", in_the_air >= 60},
+        {"lifted", Text(highest_m, 2, "m"), ">= 0.25 m", highest_m >= 0.25},
+        {"carried sideways", Text(carried_m, 2, "m"), ">= 0.3 m", carried_m >= 0.3},
+        {"largest tilt of the box", Text(57.3 * tilt_rad, 0, "deg"), "<= 45 deg",
+         tilt_rad <= 45 / 57.3}};
+  }
+};
+
 }  // namespace
 
 SceneResult CarryABox(const Actors& actors, uint64_t seed) {
@@ -146,7 +172,7 @@ SceneResult CarryABox(const Actors& actors, uint64_t seed) {
   view.look_at_m = {0.35, 0.75, 0.25};
   Stage stage(seed, view);
   std::vector<Posture> motion = LiftingMotion(actors);
-  // Nobody lifts before both hands have a grip.
+  // The lift begins when both hands have a grip.
   constexpr int kPause = 15;
   const auto lowest = motion.begin() + LowestFrame(motion);
   motion.insert(lowest, kPause, *lowest);
@@ -159,8 +185,7 @@ SceneResult CarryABox(const Actors& actors, uint64_t seed) {
   const Vector3d chest_low = motion[static_cast<size_t>(grip.lowest)][Joint::kShoulderCenter];
   const Vector3d kCarried_m(0.0, -0.40, 0.34);
 
-  int in_the_air = 0;
-  double highest = 0.0, tilt = 0.0;
+  CarriedBox carried{grip.box.position_m};
   for (int f = 0; f < static_cast<int>(motion.size()); ++f) {
     Posture body = motion[static_cast<size_t>(f)];
     // Open hands beside the box, then 8 cm into it: friction carries what the overlap presses.
@@ -173,20 +198,10 @@ SceneResult CarryABox(const Actors& actors, uint64_t seed) {
     const Vector3d middle = chest + from_chest;
     if (f > grip.lowest - 40) PutHands(stage, person, middle, half, body);
     stage.Advance({body}, "lift and carry a bulky box");
-    const auto state = stage.world.ObjectOf(box);
-    const double lifted = state.position_m.y() - grip.box.position_m.y();
-    highest = std::max(highest, lifted);
-    if (lifted > 0.05) ++in_the_air;
-    tilt = std::max(tilt, std::acos(std::min(1.0, (state.orientation * Vector3d::UnitY()).y())));
+    carried.Add(stage.world.ObjectOf(box));
   }
-  const double carried =
-      std::abs(stage.world.ObjectOf(box).position_m.x() - grip.box.position_m.x());
   SceneResult result;
-  result.numbers = {
-      {"frames with the box in the air", std::to_string(in_the_air), ">= 60", in_the_air >= 60},
-      {"lifted", Text(highest, 2, "m"), ">= 0.25 m", highest >= 0.25},
-      {"carried sideways", Text(carried, 2, "m"), ">= 0.3 m", carried >= 0.3},
-      {"largest tilt of the box", Text(57.3 * tilt, 0, "deg"), "<= 45 deg", tilt <= 45 / 57.3}};
+  result.numbers = carried.Criteria();
   AddCommonNumbers(stage, result);
   return result;
 }
@@ -211,8 +226,8 @@ SceneResult WalkThroughBoxes(const Actors& actors, uint64_t seed) {
     stage.Advance({motion[f]}, f < fight.size() ? "punch and kick" : "walk through boxes");
     if (f == fight.size()) fallen = CountMoved(stage, wall, start);
     if (f > fight.size()) continue;
-    fist += stage.Struck(0, {6, 7, 10, 11}) ? 1 : 0;
-    foot += stage.Struck(0, {14, 15, 18, 19}) ? 1 : 0;
+    fist += stage.IsStruck(0, {6, 7, 10, 11}) ? 1 : 0;
+    foot += stage.IsStruck(0, {14, 15, 18, 19}) ? 1 : 0;
   }
   const int moved = CountMoved(stage, scattered, start);
   SceneResult result;

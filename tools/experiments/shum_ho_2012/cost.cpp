@@ -1,5 +1,5 @@
-// What the character costs (Shum & Ho 2012, sec. 8.4: 0.55 ms a frame on an i7-2600K), and ten
-// hours of it: random clips, pushes and dropped frames.
+// Processor time of the character (Shum & Ho 2012, sec. 8.4: 0.55 ms a frame on an i7-2600K), and
+// an endurance run of ten hours: random clips, pushes and dropped frames.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ Cost MeasureCost(const std::vector<Posture>& motion, int people, physics::Contro
   return cost;
 }
 
-/// What a long run found.
+/// The result of an endurance run.
 struct Endurance {
   int64_t frames = 0, lost = 0;
   int rescued = 0;  // how often the world had to put it back because it was not finite
@@ -82,17 +82,17 @@ class EnduranceRun {
     const double luck = Draw();
     ++good_;
     if (luck > 0.98) Push();
-    if (luck < -0.94) Spoil(target, luck > -0.96);
+    if (luck < -0.94) Corrupt(target, luck > -0.96);
     const bool dropped = luck > 0.9 && luck < 0.94;  // no frame came: twice the time passes
     const double dt_s = dropped ? 2 * kFrame_s : kFrame_s;
     world_.SetTarget(person_, target);
     world_.Step(dt_s);
-    See(target, dt_s);
+    CheckState(target, dt_s);
   }
 
   void Push() {
     const size_t joint = Pick(recon::kJointCount);
-    // What a shove has, on the trunk; a limb of a kilogram gets what a ball has.
+    // Impulse of a shove on the trunk; a limb of a kilogram gets that of a ball.
     const double most_ns = joint <= 4 || joint % 4 == 0 ? 60.0 : 6.0;
     Vector3d impulse_ns;
     for (double& v : impulse_ns) v = most_ns * Draw();
@@ -100,7 +100,7 @@ class EnduranceRun {
     good_ = 0;
   }
 
-  void Spoil(Posture& target, bool absurd) {
+  void Corrupt(Posture& target, bool absurd) {
     for (auto& p : target.position_m) {
       if (absurd) {
         p = Vector3d(1e3 * Draw(), 1e3, 1e3);
@@ -111,7 +111,7 @@ class EnduranceRun {
     good_ = 0;
   }
 
-  void See(const Posture& target, double dt_s) {
+  void CheckState(const Posture& target, double dt_s) {
     const auto state = world_.StateOf(person_);
     ++found_.frames;
     found_.rescued = state.rescued;
@@ -139,12 +139,12 @@ class EnduranceRun {
   Endurance found_;
 };
 
-Endurance Endure(const Actors& actors, double hours, const ExperimentContext& context) {
+Endurance RunEndurance(const Actors& actors, double hours, const ExperimentContext& context) {
   const std::vector<std::string> actions = actors.Actions();
   EnduranceRun run(actors.Play(actions[0])[0], context.seed);
   const auto wanted = static_cast<int64_t>(hours * 3600.0 / kFrame_s);
   while (run.found().frames < wanted) {
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     run.Play(actors.Play(actions[run.Pick(actions.size())]), wanted);
   }
   return run.found();
@@ -171,9 +171,9 @@ Table CostStudy(ExperimentContext& context, const Actors& actors) {
         one.median_ms <= 0.6);
     row(fmt::format("six people, {}", name), text(six), "<= 4 ms", six.median_ms <= 4.0);
   }
-  const double hours = AskForShumHo(context.parameters).endurance_hours;
+  const double hours = ReadShumHoSettings(context.parameters).endurance_hours;
   const double start_ms = ProcessorTime_ms();
-  const Endurance e = Endure(actors, hours, context);
+  const Endurance e = RunEndurance(actors, hours, context);
   row(fmt::format("{:g} hours of clips, pushes, bad and dropped frames: not finite", hours),
       fmt::format("{} of {} frames, in {:.0f} s", e.rescued, e.frames,
                   1e-3 * (ProcessorTime_ms() - start_ms)),

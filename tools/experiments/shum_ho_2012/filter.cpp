@@ -1,4 +1,4 @@
-// The character as a filter: what it takes away of the jitter, and what it costs in delay.
+// The character as a filter: reduction of jitter, and delay.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -108,15 +108,15 @@ recon::BoneLengths Targets::MedianLengths() const {
   return lengths;
 }
 
-/// How far pinned feet wander from where they were when they were pinned, and how well the pins
-/// know standing feet from moving ones.
+/// How far pinned feet drift from where they were pinned, and how well pins distinguish standing
+/// feet from moving ones.
 class FootMeter {
  public:
-  void See(const physics::FilteredPosture& out, const FilterCase& c, size_t f) {
+  void AddFrame(const physics::FilteredPosture& out, const FilterCase& c, size_t f) {
     Foot(0, out.left_foot_pinned, Index(Joint::kFootLeft), out, c, f);
     Foot(1, out.right_foot_pinned, Index(Joint::kFootRight), out, c, f);
   }
-  void NextCase() { pinned_ = {}; }
+  void Reset() { pinned_ = {}; }
   double largest_m() const { return largest_m_; }
   std::string StandingPinned() const { return Share(standing_pinned_, standing_); }
   std::string MovingPinned() const { return Share(moving_pinned_, moving_); }
@@ -160,7 +160,7 @@ struct Measured {
   int64_t frames = 0;
 };
 
-/// Only joints that the sensor gave count, or the filter would be judged on what it filled in.
+/// Only joints that the sensor saw count, so that filled-in joints are not evaluated.
 SparsePosture KeepSeenJoints(const Posture& filtered, const SparsePosture& seen) {
   SparsePosture result = seen;
   result.position_m = filtered.position_m;
@@ -173,7 +173,7 @@ void Run(const FilterCase& c, const physics::CharacterFilterOptions& options, Me
   const recon::BoneLengths lengths = targets.MedianLengths();
   physics::CharacterFilter filter(lengths, options);
   PairedTracks result = c.tracks;
-  m.feet.NextCase();
+  m.feet.Reset();
   for (size_t f = 0; f < observed.size(); ++f) {
     const double dt_s = f == 0 ? 1.0 / 30.0 : c.tracks.time_s[f] - c.tracks.time_s[f - 1];
     const double start_ms = ProcessorTime_ms();
@@ -182,7 +182,7 @@ void Run(const FilterCase& c, const physics::CharacterFilterOptions& options, Me
     result.result[f] = KeepSeenJoints(out.posture, observed[f]);
     m.depth_m = std::max(m.depth_m, out.floor_depth_m);
     m.gap_m = std::max(m.gap_m, out.max_anchor_gap_m);
-    m.feet.See(out, c, f);
+    m.feet.AddFrame(out, c, f);
     const auto now = recon::MeasureBoneLengths(out.posture);
     for (size_t i = 1; i < kJointCount; ++i) {
       m.length_error = std::max(m.length_error, std::abs(now[i] / lengths[i] - 1.0));
@@ -236,7 +236,7 @@ Table FilterStudy(ExperimentContext& context, const Actors& actors) {
   plain.lead = 0.0;
   motor.control = physics::Control::kMotor;
   for (const FilterData& data : MakeFilterData(context, actors, table.note)) {
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     AddRow(table, data, "pd", paper);
     AddRow(table, data, "pd, lead 0", plain);
     AddRow(table, data, "motor", motor);

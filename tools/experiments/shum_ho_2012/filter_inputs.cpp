@@ -1,4 +1,4 @@
-// What the filter is tried on: noisy authored motion, sensors against truth, rendered scenes.
+// Inputs of the filter study: noisy authored motion, sensors with truth, rendered scenes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -112,7 +112,7 @@ FilterData InRuns(const FilterData& whole) {
 /// The raw joints of ossa's forest on rendered depth images, without and with furniture.
 FilterData Rendered(ExperimentContext& context, std::string& note) {
   constexpr size_t kScenes = 6;
-  const ShumHoSettings settings = AskForShumHo(context.parameters);
+  const ShumHoSettings settings = ReadShumHoSettings(context.parameters);
   const int frames = settings.rendered_frames;
   const std::string& observer = settings.observer;
   const StudyMotion motions = StudyMotions(context, kScenes, frames);
@@ -134,7 +134,7 @@ FilterData Rendered(ExperimentContext& context, std::string& note) {
 
 std::vector<FilterData> MakeFilterData(ExperimentContext& context, const Actors& actors,
                                        std::string& note) {
-  const ShumHoSettings settings = AskForShumHo(context.parameters);
+  const ShumHoSettings settings = ReadShumHoSettings(context.parameters);
   const double stride = settings.filter_stride;
   std::vector<FilterData> all;
   for (const double sigma_cm : {0.0, 1.0, 3.0}) {

@@ -29,7 +29,7 @@ class Actors {
 /// A scene while it is played: the world, its pictures and what was seen of it.
 class Stage {
  public:
-  /// `filmed`: false for what nobody looks at.
+  /// `filmed`: false: no pictures are made.
   Stage(uint64_t seed, const SceneView& view, bool filmed = true);
 
   physics::World world;
@@ -39,7 +39,7 @@ class Stage {
 
   /// Did an object touch one of the person's bones (by their end joints; all if none are named) in
   /// the last frame? `object` of -1: any.
-  bool Struck(int person, const std::vector<size_t>& bones, int object = -1) const;
+  bool IsStruck(int person, const std::vector<size_t>& bones, int object = -1) const;
 
   int frames() const { return frames_; }
   double deepest_m() const { return deepest_m_; }  // characters in objects
@@ -79,7 +79,7 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed);
 void AddCommonNumbers(const Stage& stage, SceneResult& result);
 std::string Text(double value, int digits, const std::string& unit);
 
-/// What the studies below are told, beside what rendered scenes are of (AskForMotions()).
+/// Settings of the studies below, beside the motions of rendered scenes (ReadMotions()).
 struct ShumHoSettings {
   bool rendered = true;  // the filter on rendered scenes, too
   int rendered_frames = 0;
@@ -88,11 +88,11 @@ struct ShumHoSettings {
   double endurance_hours = 0.0;       // of simulated time
   double database_threshold_m = 0.0;  // recon::DatabaseOptions::threshold_m
 };
-ShumHoSettings AskForShumHo(Parameters& parameters);
+ShumHoSettings ReadShumHoSettings(Parameters& parameters);
 
 /// The character as a filter on noisy authored motion and, when there, on real recordings.
 Table FilterStudy(ExperimentContext& context, const Actors& actors);
-/// What a frame costs: one person, six, one among many boxes.
+/// Processor time of a frame: one person, six, one among many boxes.
 Table CostStudy(ExperimentContext& context, const Actors& actors);
 /// Fig. 5: error of the matched posture and time of a query against the dimensions kept by PCA.
 Table DimensionStudy(ExperimentContext& context);

@@ -91,8 +91,8 @@ Swing FindSwing(const std::vector<Posture>& motion) {
 
 double Bearing_rad(const Vector3d& v) { return std::atan2(v.x(), v.z()); }
 
-/// Everybody turns so that what they swing goes at the mark.
-std::vector<Posture> Aimed(std::vector<Posture> motion, const Swing& swing, const Vector3d& mark) {
+/// Rotates the motion so that the swung object flies towards the mark.
+std::vector<Posture> AimAt(std::vector<Posture> motion, const Swing& swing, const Vector3d& mark) {
   constexpr int kTimes = 20;  // the hand moves as one turns
   const Vector3d hips = motion[0][Joint::kHipCenter];
   Eigen::AngleAxisd turn(0.0, Vector3d::UnitY());
@@ -147,8 +147,8 @@ int TakeBox(Stage& stage, int person, Joint hand) {
   return index;
 }
 
-/// How far from somebody's trunk and head something that flies on from now passes at its nearest.
-double PassesAt_m(const physics::ObjectState& flying, const Posture& body) {
+/// Smallest distance from trunk and head at which a flying object will pass.
+double ClosestPass_m(const physics::ObjectState& flying, const Posture& body) {
   constexpr double kLongest_s = 1.0, kStep_s = 0.01;
   double nearest = 1e9;
   for (double t = 0.0; t < kLongest_s; t += kStep_s) {
@@ -167,7 +167,7 @@ class Aim {
   bool IsNow(const physics::ObjectState& held, const Posture& other) {
     constexpr double kSwing_m_s = 4.0, kGood_m = 0.2;
     const bool swings = held.velocity_m_s.norm() > kSwing_m_s;
-    const double passes = swings ? PassesAt_m(held, other) : 1e9;
+    const double passes = swings ? ClosestPass_m(held, other) : 1e9;
     const bool is_now = before_ < kGood_m && passes >= before_;
     before_ = passes;
     return is_now;
@@ -177,7 +177,7 @@ class Aim {
   double before_ = 1e9;
 };
 
-/// A box that one person throws at another, and what became of it.
+/// A box that one person throws at another, and its flight.
 struct Throw {
   int box = -1;
   Aim aim;
@@ -187,15 +187,15 @@ struct Throw {
   double flew_m = 0.0;                 // until it did
 
   /// Within a frame: a swing of 10 m/s passes its mark in less.
-  void LetGoIfAimed(Stage& stage, int target) {
+  void ReleaseIfAimed(Stage& stage, int target) {
     const physics::ObjectState held = stage.world.ObjectOf(box);
     if (is_thrown || !aim.IsNow(held, stage.world.StateOf(target).posture)) return;
     stage.world.Release(box);
     is_thrown = true;
     from_m = held.position_m;
   }
-  void Watch(const Stage& stage, int target) {
-    if (!is_thrown || !stage.Struck(target, {}, box)) return;
+  void CountHits(const Stage& stage, int target) {
+    if (!is_thrown || !stage.IsStruck(target, {}, box)) return;
     if (hits == 0) flew_m = (stage.world.ObjectOf(box).position_m - from_m).norm();
     ++hits;
   }
@@ -239,7 +239,7 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
   constexpr double kApart_m = 3.0;
   const Vector3d first = actors.Play("throw")[0][Joint::kHipCenter];
   const Swing swing = FindSwing(actors.Play("throw"));
-  const auto motion = Aimed(actors.Play("throw"), swing, first + Vector3d(0.0, 0.0, kApart_m));
+  const auto motion = AimAt(actors.Play("throw"), swing, first + Vector3d(0.0, 0.0, kApart_m));
   // Half a turn about the vertical line between them: each faces the other.
   const auto opposite = [&](Posture posture) {
     for (auto& p : posture.position_m) {
@@ -257,7 +257,7 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
   for (const int person : {0, 1}) throws[person].box = TakeBox(stage, person, swing.hand);
   physics::WorldCallbacks callbacks;
   callbacks.before_substep = [&stage, &throws](double) {
-    for (const int person : {0, 1}) throws[person].LetGoIfAimed(stage, 1 - person);
+    for (const int person : {0, 1}) throws[person].ReleaseIfAimed(stage, 1 - person);
   };
   stage.world.SetCallbacks(callbacks);
   const size_t delay = 45;  // the second character throws a second and a half later
@@ -265,7 +265,7 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
     const auto at = [&](size_t frame) { return std::min(frame, motion.size() - 1); };
     stage.Advance({motion[at(f)], opposite(motion[at(f < delay ? 0 : f - delay)])},
                   "two characters throw boxes at each other");
-    for (const int person : {0, 1}) throws[person].Watch(stage, 1 - person);
+    for (const int person : {0, 1}) throws[person].CountHits(stage, 1 - person);
   }
   const double flew_m = std::min(throws[0].flew_m, throws[1].flew_m);
   SceneResult result;

@@ -111,7 +111,7 @@ Matched MatchAll(const Eigen::MatrixXf& postures, const Eigen::MatrixXf& reduced
 }  // namespace
 
 Table DimensionStudy(ExperimentContext& context) {
-  const double threshold_m = AskForShumHo(context.parameters).database_threshold_m;
+  const double threshold_m = ReadShumHoSettings(context.parameters).database_threshold_m;
   const recon::PostureDatabase database = AuthoredDatabase(context.seed, threshold_m);
   const Eigen::MatrixXf postures = database.postures();
   const Eigen::VectorXf mean = postures.rowwise().mean();

@@ -10,7 +10,7 @@
 
 namespace ossa::tools {
 
-/// From where a scene is looked at. World: metres, y up, floor at y = 0.
+/// The view of a scene. World: metres, y up, floor at y = 0.
 struct SceneView {
   Eigen::Vector3d eye_m = {2.5, 1.8, 3.5};
   Eigen::Vector3d look_at_m = {0.0, 0.9, 0.5};

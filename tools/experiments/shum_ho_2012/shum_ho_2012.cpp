@@ -20,7 +20,7 @@ namespace {
 struct Scene {
   const char* file;
   const char* title;
-  double still;  // the moment, as a share of the scene, that shows best what it is
+  double still;  // time of the still picture, as a share of the scene
   SceneResult (*play)(const Actors& actors, uint64_t seed);
 };
 
@@ -42,7 +42,7 @@ constexpr int kStripPictures = 6;
 constexpr double kMost_hours = 720.0;  // hours
 constexpr double kLeastThreshold_m = 0.01, kMostThreshold_m = 10.0;
 
-/// What the parameter `parts` asks for; all of it by default.
+/// The parts selected by the parameter `parts`; all by default.
 std::set<std::string> Parts(Parameters& parameters) {
   std::vector<std::string> known;
   for (const Scene& scene : kScenes) known.emplace_back(scene.file);
@@ -76,11 +76,11 @@ Table SceneTable() {
 
 }  // namespace
 
-ShumHoSettings AskForShumHo(Parameters& parameters) {
+ShumHoSettings ReadShumHoSettings(Parameters& parameters) {
   ShumHoSettings settings;
   settings.rendered = parameters.Flag("rendered", true);
   settings.rendered_frames = parameters.Integer("rendered_frames", 150, 2);
-  settings.observer = AskForObserver(parameters);
+  settings.observer = ReadObserver(parameters);
   settings.filter_stride = parameters.Number("filter_stride", 16, 1);
   settings.endurance_hours = parameters.Number("endurance_hours", 0.1, 0, kMost_hours);
   settings.database_threshold_m =
@@ -88,23 +88,23 @@ ShumHoSettings AskForShumHo(Parameters& parameters) {
   return settings;
 }
 
-void AskShumHo2012(ExperimentContext& context) {
+void ReadShumHo2012Parameters(ExperimentContext& context) {
   Parts(context.parameters);
-  AskForShumHo(context.parameters);
-  AskForMotions(context);
+  ReadShumHoSettings(context.parameters);
+  ReadMotions(context);
 }
 
 std::vector<Table> RunShumHo2012(ExperimentContext& context) {
   const std::set<std::string> parts = Parts(context.parameters);
   if (parts.contains("filter") && !context.shared.empty()) {
-    ExpectRecordings(context.shared,
-                     {RecordingSet::kUiPrmd, RecordingSet::kKeraal, RecordingSet::kItop});
+    RequireRecordings(context.shared,
+                      {RecordingSet::kUiPrmd, RecordingSet::kKeraal, RecordingSet::kItop});
   }
   const Actors actors(context.seed);
   double done = 0.0;
   const auto begin = [&](const std::string& part) {
     if (!parts.contains(part)) return false;
-    context.StopIfAsked();
+    context.ThrowIfInterrupted();
     if (context.progress) context.progress(done++, static_cast<double>(parts.size()), part);
     return true;
   };

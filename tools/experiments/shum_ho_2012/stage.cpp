@@ -65,7 +65,7 @@ std::vector<Posture> Actors::Sequence(const std::vector<std::string>& actions) c
 
 namespace {
 
-physics::WorldOptions Seeded(uint64_t seed) {
+physics::WorldOptions OptionsWithSeed(uint64_t seed) {
   physics::WorldOptions options;
   options.seed = seed;
   return options;
@@ -74,7 +74,7 @@ physics::WorldOptions Seeded(uint64_t seed) {
 }  // namespace
 
 Stage::Stage(uint64_t seed, const SceneView& view, bool filmed)
-    : world(Seeded(seed)), view_(view), filmed_(filmed) {
+    : world(OptionsWithSeed(seed)), view_(view), filmed_(filmed) {
   world.SetFloor(Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));
 }
 
@@ -82,7 +82,7 @@ int Stage::AddPerson(const Posture& start, const physics::CharacterOptions& opti
   return world.AddCharacter(recon::MeasureBoneLengths(start), start, options);
 }
 
-bool Stage::Struck(int person, const std::vector<size_t>& bones, int object) const {
+bool Stage::IsStruck(int person, const std::vector<size_t>& bones, int object) const {
   const auto& struck = world.Contacts().struck;
   return std::any_of(struck.begin(), struck.end(), [&](const physics::Strike& s) {
     const bool bone = bones.empty() || std::find(bones.begin(), bones.end(), s.bone) != bones.end();

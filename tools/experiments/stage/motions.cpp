@@ -7,6 +7,7 @@
 #include "depth/base/error.h"
 #include "recon/motion/authored.h"
 #include "recon/motion/mocap.h"
+#include "tools/experiments/compare/select_evenly.h"
 
 namespace ossa::tools {
 namespace {
@@ -35,15 +36,6 @@ bool StaysInView(const recon::MotionClip& clip, size_t frames) {
   return std::max(high.x() - low.x(), high.z() - low.z()) < kRoom_m;
 }
 
-std::vector<recon::MotionClip> Spread(std::vector<recon::MotionClip> clips, size_t count) {
-  if (clips.size() <= count) return clips;
-  std::vector<recon::MotionClip> chosen;
-  for (size_t i = 0; i < count; ++i) {
-    chosen.push_back(std::move(clips[i * clips.size() / count]));
-  }
-  return chosen;
-}
-
 /// The named clips of a folder, those that last.
 std::vector<recon::MotionClip> Named(const std::filesystem::path& folder,
                                      const std::vector<std::string>& names,
@@ -63,7 +55,7 @@ std::vector<recon::MotionClip> Named(const std::filesystem::path& folder,
 
 }  // namespace
 
-void AskForMotions(ExperimentContext& context) {
+void ReadMotions(ExperimentContext& context) {
   context.parameters.Motion("motion", "");
   context.parameters.Texts("only", {});
 }
@@ -115,7 +107,7 @@ StudyMotion StudyMotions(ExperimentContext& context, size_t count, int frames) {
     throw InputError(
         fmt::format("{}: expected clips of at least {} frames, found none", source, frames / 2));
   }
-  motion.clips = Spread(std::move(motion.clips), count);
+  motion.clips = SelectEvenly(std::move(motion.clips), count);
   motion.note =
       source == "authored"
           ? "Motions: ossa's authored clips by other movers than the shipped database's. "

@@ -9,11 +9,11 @@ namespace ossa::tools {
 
 struct StudyMotion {
   std::vector<recon::MotionClip> clips;
-  std::string note;  // what they are, for tables
+  std::string note;  // description for tables
 };
 
-/// Asks for what StudyMotions() and TenPerformances() ask for.
-void AskForMotions(ExperimentContext& context);
+/// Reads the parameters of StudyMotions() and TenPerformances().
+void ReadMotions(ExperimentContext& context);
 
 /// Motions for a study that no shipped database or model was made from where possible: mocap under
 /// --shared (parameters `motion`, `only`), else ossa's authored clips with movers of another seed

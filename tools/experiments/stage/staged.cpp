@@ -70,7 +70,7 @@ struct Studio::State {
   std::unique_ptr<recon::BodyModel> model;
   std::unique_ptr<recon::Wardrobe> wardrobe;
 
-  void NeedBody() {
+  void LoadBodyOnce() {
     if (model) return;
     model = std::make_unique<recon::BodyModel>(LoadFetchedBody());
     wardrobe = std::make_unique<recon::Wardrobe>(*model);
@@ -79,7 +79,7 @@ struct Studio::State {
 
 namespace {
 
-// One performance being filmed.
+// One performance being rendered.
 class Set {
  public:
   Set(const recon::BodyModel& model, const recon::Wardrobe& wardrobe, const recon::MotionClip& clip,
@@ -105,11 +105,11 @@ class Set {
   }
 
   size_t size() const { return poses_.size(); }
-  StagedFrame Shoot(size_t index);
+  StagedFrame RenderFrame(size_t index);
 
  private:
   std::vector<Prop> Props(Occluders kind) const;
-  LabelledFrame Sense(size_t index, const recon::Posture& joints);
+  LabelledFrame RenderDepth(size_t index, const recon::Posture& joints);
 
   const recon::BodyModel& model_;
   StageOptions options_;
@@ -121,7 +121,7 @@ class Set {
   std::vector<Prop> held_;  // as in the first posture
 };
 
-// What stands between the person's whole path and the sensor, or is held in the first posture.
+// Objects between the person's whole path and the sensor, or held in the first posture.
 std::vector<Prop> Set::Props(Occluders kind) const {
   if (poses_.empty()) return {};
   std::vector<recon::Posture> path_in_world;
@@ -131,7 +131,7 @@ std::vector<Prop> Set::Props(Occluders kind) const {
   return SampleLastingProps(kind, path_in_world, camera_from_world_, random);
 }
 
-LabelledFrame Set::Sense(size_t index, const recon::Posture& joints) {
+LabelledFrame Set::RenderDepth(size_t index, const recon::Posture& joints) {
   std::vector<int> held;
   if (!held_.empty()) {
     recon::Posture first = recon::ComputeJoints(actors_[0].body(), poses_[0]);
@@ -140,7 +140,7 @@ LabelledFrame Set::Sense(size_t index, const recon::Posture& joints) {
       held.push_back(renderer_.AddMesh(Carried(prop, first, joints).mesh_in_cam, false));
   }
   LabelledFrame frame =
-      SenseActors(renderer_, camera_, model_, actors_, options_.seed * 1000003 + index);
+      RenderActors(renderer_, camera_, model_, actors_, options_.seed * 1000003 + index);
   for (const int mesh : held) renderer_.RemoveMesh(mesh);
   frame.depth.index = static_cast<int64_t>(index);
   frame.depth.time_s = static_cast<double>(index) / 30.0;
@@ -149,10 +149,10 @@ LabelledFrame Set::Sense(size_t index, const recon::Posture& joints) {
   return frame;
 }
 
-StagedFrame Set::Shoot(size_t index) {
+StagedFrame Set::RenderFrame(size_t index) {
   const recon::Posture joints = actors_[0].Take(poses_[index], camera_from_world_);
   actors_[0].Show(renderer_);
-  LabelledFrame labelled = Sense(index, joints);
+  LabelledFrame labelled = RenderDepth(index, joints);
   StagedFrame staged;
   staged.truth.frame = labelled.depth.index;
   staged.truth.time_s = labelled.depth.time_s;
@@ -259,17 +259,18 @@ Studio::Studio(const ExperimentContext& context, std::string observer)
 }
 Studio::~Studio() = default;
 
-std::vector<StagedFrame> Studio::Film(const recon::MotionClip& clip, const StageOptions& options) {
-  state_->NeedBody();
+std::vector<StagedFrame> Studio::RenderClip(const recon::MotionClip& clip,
+                                            const StageOptions& options) {
+  state_->LoadBodyOnce();
   Set set(*state_->model, *state_->wardrobe, clip, options);
   std::vector<StagedFrame> frames;
-  for (size_t f = 0; f < set.size(); ++f) frames.push_back(set.Shoot(f));
+  for (size_t f = 0; f < set.size(); ++f) frames.push_back(set.RenderFrame(f));
   return frames;
 }
 
 namespace {
 
-// What the forest and its refinement say, before any reconstruction.
+// Joints of the forest and its refinement, before any reconstruction.
 tracker::Tracker MakeObserver(const ExperimentContext& context, const ObserverFiles& observer) {
   tracker::TrackerOptions options;
   options.method = "none";
@@ -304,15 +305,15 @@ RecordedPair ParseRecording(const std::string& text, const std::string& name) {
 }  // namespace
 
 RecordedPair Studio::Observe(const recon::MotionClip& clip, const StageOptions& options) {
-  state_->NeedBody();
+  state_->LoadBodyOnce();
   Set set(*state_->model, *state_->wardrobe, clip, options);
   std::optional<tracker::Tracker> tracker;
   if (state_->observer == "forest") tracker.emplace(MakeObserver(state_->context, state_->files));
   SimulatedSdk sdk(options.seed);
   RecordedPair pair;
   for (size_t f = 0; f < set.size(); ++f) {
-    state_->context.StopIfAsked();
-    const StagedFrame frame = set.Shoot(f);
+    state_->context.ThrowIfInterrupted();
+    const StagedFrame frame = set.RenderFrame(f);
     pair.truth.frames.push_back(frame.truth);
     if (!tracker) {
       pair.observed.frames.push_back(sdk.Observe(frame));
@@ -342,7 +343,7 @@ RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& o
   return pair;
 }
 
-std::string AskForObserver(Parameters& parameters) {
+std::string ReadObserver(Parameters& parameters) {
   return parameters.OneOf("observer", {"forest", "simulated"}, "forest");
 }
 

@@ -14,7 +14,7 @@ namespace ossa::tools {
 
 // Constants: by hand; the image is half a Kinect v1's each way, for speed.
 
-/// What stands between the sensor and the person.
+/// Objects between the sensor and the person.
 enum class Clutter {
   kNone,
   kFurniture,  // things that stand before the person: tables, chairs, boards
@@ -55,7 +55,7 @@ class Studio {
   /// where none is.
   RecordedPair Record(const recon::MotionClip& clip, const StageOptions& options);
   /// The frames themselves, uncached: for pictures and tests.
-  std::vector<StagedFrame> Film(const recon::MotionClip& clip, const StageOptions& options);
+  std::vector<StagedFrame> RenderClip(const recon::MotionClip& clip, const StageOptions& options);
 
  private:
   // Uncached, and from the first frame on.
@@ -66,9 +66,9 @@ class Studio {
 };
 
 /// The parameter `observer`, "forest" by default.
-std::string AskForObserver(Parameters& parameters);
+std::string ReadObserver(Parameters& parameters);
 
-/// What tables say of the observer.
+/// Description of the observer for tables.
 std::string ObserverNote(const std::string& observer);
 
 }  // namespace ossa::tools

@@ -8,13 +8,13 @@
 
 namespace ossa::tools {
 
-/// What the observer "forest" sees by; empty: does without. The cache's key holds all of it.
+/// Model files of the observer "forest"; empty: none. The key of the cache contains all of them.
 struct ObserverFiles {
   std::filesystem::path forest, refinement, network, surface;
   std::vector<std::filesystem::path> All() const;
 };
 
-/// `model`: a forest of one's own, which nothing shipped refines; empty: the shipped one.
+/// `model`: a custom forest, which is not refined; empty: the shipped one.
 ObserverFiles FindObserverFiles(const std::filesystem::path& model);
 
 /// Until the person is found there is nothing to reconstruct, and methods answer with a posture in

@@ -36,7 +36,7 @@ tools::CompareOptions CompareOptionsFrom(const py::dict& given) {
   options.only = given["only"].cast<std::vector<std::string>>();
   options.skip = given["skip"].cast<std::vector<std::string>>();
   options.seed = given["seed"].cast<uint64_t>();
-  options.stop = [] { return !GoesOn(); };
+  options.stop = [] { return !CheckSignals(); };
   return options;
 }
 
@@ -52,8 +52,8 @@ std::string Evaluate(const std::string& path, const std::string& dataset, int64_
   return Interruptible([&] {
     const forest::ForestModel model = forest::ReadForestModel(path);
     const tools::DatasetReader reader{std::filesystem::path(dataset)};
-    return tools::EvaluationJson(
-        tools::Evaluate(model, path, reader, every, [](int64_t, int64_t) { return GoesOn(); }));
+    return tools::EvaluationJson(tools::Evaluate(model, path, reader, every,
+                                                 [](int64_t, int64_t) { return CheckSignals(); }));
   });
 }
 
@@ -71,9 +71,10 @@ size_t Learn(const std::vector<std::string>& observed, const std::vector<std::st
   reading.frame_s = given["frame_s"].cast<double>();
   return Interruptible([&] {
     const auto pairs =
-        tools::PairRecordings(observed, truth, reading, [](const auto&) { return GoesOn(); });
-    const auto models = recon::LearnedModels::Learn(pairs, options, [](int) { return GoesOn(); });
-    if (GoesOn()) models.Save(out);
+        tools::PairRecordings(observed, truth, reading, [](const auto&) { return CheckSignals(); });
+    const auto models =
+        recon::LearnedModels::Learn(pairs, options, [](int) { return CheckSignals(); });
+    if (CheckSignals()) models.Save(out);
     return pairs.size();
   });
 }

@@ -86,7 +86,7 @@ GilReleased::~GilReleased() {
   }
 }
 
-bool GoesOn() {
+bool CheckSignals() {
   try {
     const py::gil_scoped_acquire gil;
     // A signal is told of once: who asks again after it must not hear that all is well.
@@ -96,8 +96,8 @@ bool GoesOn() {
   }
 }
 
-bool GoesOnAsking(PyObject* ask) {
-  if (!GoesOn()) return false;
+bool CheckSignalsAndAsk(PyObject* ask) {
+  if (!CheckSignals()) return false;
   try {
     const py::gil_scoped_acquire gil;
     const auto answer = py::reinterpret_steal<py::object>(PyObject_CallNoArgs(ask));

@@ -38,15 +38,16 @@ class GilReleased {
 
 /// Whether a long run goes on: false once Python has a signal to act on (Ctrl-C). Called without
 /// the GIL, within Interruptible.
-bool GoesOn();
+bool CheckSignals();
 /// The same, and whether the Python function `ask` says so, which is called without arguments. What
 /// it raises ends the run, too.
-bool GoesOnAsking(PyObject* ask);
+bool CheckSignalsAndAsk(PyObject* ask);
 /// Throws what Python raised meanwhile.
 void ThrowIfInterrupted();
 
-/// What `work` returns, done without the GIL. Where GoesOn ended it, what Python raised is thrown,
-/// whatever the work returned or threw then: KeyboardInterrupt must not become "no device found".
+/// What `work` returns, done without the GIL. Where CheckSignals ended it, what Python raised is
+/// thrown, whatever the work returned or threw then: KeyboardInterrupt must not become "no device
+/// found".
 template <typename Work>
 std::invoke_result_t<Work> Interruptible(const Work& work) {
   try {

@@ -184,7 +184,7 @@ recon::SkeletonReadOptions ReadingFrom(const py::dict& given) {
   reading.format = given["format"].cast<std::string>();
   reading.frame_s = given["frame_s"].cast<double>();
   reading.mapping_file = given["mapping"].cast<std::string>();
-  reading.stop = [] { return !GoesOn(); };
+  reading.stop = [] { return !CheckSignals(); };
   return reading;
 }
 
@@ -249,7 +249,7 @@ recon::ReconstructorOptions OptionsFrom(const py::dict& given,
 recon::SkeletonSequence Reconstructed(const recon::SkeletonSequence& sequence,
                                       const recon::ReconstructorOptions& options,
                                       bool bones_of_recording) {
-  const auto goes_on = [](size_t) { return GoesOn(); };
+  const auto goes_on = [](size_t) { return CheckSignals(); };
   recon::BoneLengthsById bones;
   if (bones_of_recording) bones = recon::MeasureBones(sequence, options, goes_on);
   return recon::ReconstructSequence(sequence, options, goes_on, bones);
@@ -276,7 +276,7 @@ py::dict Reconstruct(const py::dict& rows, const py::dict& given) {
     recon::SkeletonSequence made = offline ? recon::ButterworthSequence(sequence, cutoff_hz)
                                            : Reconstructed(sequence, options, bones_of_recording);
     made = recon::SmoothSequence(made, lag);
-    if (physics) tracker::FollowMechanically(made, build, [](size_t) { return GoesOn(); });
+    if (physics) tracker::FollowMechanically(made, build, [](size_t) { return CheckSignals(); });
     return made;
   }));
 }

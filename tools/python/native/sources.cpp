@@ -62,11 +62,11 @@ depth::SourceOptions ReadSourceOptions(const py::dict& given) {
   options.inverted_from = coding.inverted_from;
   options.mirrored = given["mirrored"].cast<bool>();
   options.device_wait = milliseconds(static_cast<int64_t>(1000.0 * given["wait_s"].cast<double>()));
-  options.keep_waiting = GoesOn;
+  options.keep_waiting = CheckSignals;
   if (given.contains("keep_waiting")) {
     // Borrowed, for a reference would be let go of where there is no GIL.
     options.keep_waiting = [ask = py::object(given["keep_waiting"]).ptr()] {
-      return GoesOnAsking(ask);
+      return CheckSignalsAndAsk(ask);
     };
   }
   return options;

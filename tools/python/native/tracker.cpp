@@ -356,7 +356,7 @@ class Tracker {
     const depth::SourceOptions options = ReadSourceOptions(given);
     const auto finding = Interruptible([&] {
       return tracker::FindNarrowerCamera(
-          source, options, [this] { return options_; }, GoesOn);
+          source, options, [this] { return options_; }, CheckSignals);
     });
     if (!finding) return py::none();
     return py::make_tuple(ToTuple(finding->found.camera), tracker::Describe(*finding));
@@ -368,7 +368,7 @@ class Tracker {
     return Interruptible([&] {
       const std::lock_guard lock(mutex_);
       tracker_->SetTurn(tracker::Turn::kAuto);
-      tracker_->FindUpright(*depth::OpenSource(source, options), GoesOn);
+      tracker_->FindUpright(*depth::OpenSource(source, options), CheckSignals);
       return tracker_->quarter_turns();
     });
   }

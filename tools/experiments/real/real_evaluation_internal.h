@@ -8,12 +8,12 @@
 
 namespace ossa::tools {
 
-/// The stages of the tracker that are judged, in the order of the data's way.
+/// The evaluated stages of the tracker, in the order of the data flow.
 enum class RealStage { kRaw, kRefined, kFinal, kPeer };
 inline constexpr std::array kRealStages = {RealStage::kRaw, RealStage::kRefined, RealStage::kFinal};
 std::string_view StageName(RealStage stage);
 
-/// Where one stage puts the 20 joints; empty where it says nothing of a joint.
+/// The 20 joints of one stage; empty where it has no position.
 using StageJoints = recon::JointArray<std::optional<Eigen::Vector3d>>;
 StageJoints JointsAtStage(const tracker::Body& body, RealStage stage);
 
@@ -25,30 +25,31 @@ struct StillResult {
   size_t bodies = 0;
   std::map<RealStage, JointErrors> errors;
   std::vector<bool> has_truth;             // by joint
-  std::vector<bool> tracked{};             // by joint, of the judged body: so it leaves
-  std::optional<recon::SurfaceFit> fit{};  // of the judged body, with TrackerOptions::fit
+  std::vector<bool> tracked{};             // by joint, of the evaluated body, as returned
+  std::optional<recon::SurfaceFit> fit{};  // of the evaluated body, with TrackerOptions::fit
   double fit_ms = 0.0;                     // of all bodies
 };
 
 /// A still, seen alone: the tracker is reset first. Of several bodies the one whose raw joints are
-/// nearest to the truth is judged.
-StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Tracker& tracker);
+/// nearest to the truth is evaluated.
+StillResult EvaluateStill(const RealSet& set, const RealStill& still, tracker::Tracker& tracker);
 
 /// Figures of one stage over a set.
 struct StageScore {
   RealStage stage = RealStage::kRaw;
-  bool offset_removed = false;
+  bool offset_removed = false;                 // of one joint at least; too few stills say none
   std::optional<double> mean_cm;               // of the joints found; none where none is
   double within_5cm = 0.0, within_10cm = 0.0;  // shares of all joints with truth: missing is wrong
   int64_t joints = 0, found = 0;
   std::map<std::string, double> per_joint_10cm;  // share within 10 cm by joint of the set
 };
 
-/// How far what is said of joints' states can be believed: final joints within 10 cm, offset
+/// Accuracy by state: final joints within 10 cm, offset
 /// removed.
 struct StateScore {
   int64_t tracked = 0, tracked_within_10cm = 0;
   int64_t others = 0, others_within_10cm = 0;  // inferred or not tracked
+  bool offset_removed = false;                 // as of StageScore
 };
 StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& results);
 
@@ -60,6 +61,7 @@ StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& result
 struct RawAndFinal {
   int64_t joints = 0;
   double raw_cm = 0.0, final_cm = 0.0;
+  bool offset_removed = false;  // as of StageScore
 };
 RawAndFinal ScoreRawAndFinal(const RealSet& set, const std::vector<StillResult>& results);
 
@@ -70,11 +72,11 @@ struct VideoScore {
   int64_t identity_breaks = 0;              // frames in which somebody goes on under another number
   std::map<RealStage, double> jitter_mm;    // of joints of somebody who holds still
   std::map<RealStage, double> bone_variation;  // standard deviation over mean of bones, per cent
-  std::map<RealStage, double> leaps;  // joints in 100 frames that are elsewhere all of a sudden
-  double explained = 0.0;             // share of users' pixels within 5 cm of the posed body
+  std::map<RealStage, double> leaps;           // jumps of joints in 100 frames
+  double explained = 0.0;  // share of users' pixels within 5 cm of the posed body
 };
 
 /// The tracker is reset first, and before each frame of a set of stills.
-VideoScore JudgeVideo(const RealVideo& video, tracker::Tracker& tracker);
+VideoScore EvaluateVideo(const RealVideo& video, tracker::Tracker& tracker);
 
 }  // namespace ossa::tools

@@ -1,5 +1,5 @@
-// Stills with truth: what each stage of the tracker says of them, and how far off that is.
-#include "tools/experiments/real/real_judge_internal.h"
+// Stills with truth: joints of each stage of the tracker and their errors.
+#include "tools/experiments/real/real_evaluation_internal.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@
 namespace ossa::tools {
 namespace {
 
-// Fewer stills than this say nothing of a constant offset. By hand: the median of two is their
+// Fewest stills to estimate a constant offset. By hand: the median of two is their
 // mean.
 constexpr size_t kLeastForOffset = 3;
 
@@ -49,9 +49,10 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-// The constant offset of joint `j`, by the stills that may say it for still `i`.
-Eigen::Vector3d OffsetFor(const RealSet& set, const std::vector<StillResult>& results,
-                          RealStage stage, size_t i, size_t j) {
+// The constant offset of joint `j`, by the stills that may say it for still `i`; none of too few.
+std::optional<Eigen::Vector3d> OffsetFor(const RealSet& set,
+                                         const std::vector<StillResult>& results, RealStage stage,
+                                         size_t i, size_t j) {
   std::array<std::vector<double>, 3> axes;
   for (size_t k = 0; k < results.size(); ++k) {
     if (set.offsets_from_other_half && k % 2 == i % 2) continue;
@@ -61,8 +62,15 @@ Eigen::Vector3d OffsetFor(const RealSet& set, const std::vector<StillResult>& re
       axes[a].push_back((*errors->second[j])[static_cast<Eigen::Index>(a)]);
     }
   }
-  if (axes[0].size() < kLeastForOffset) return Eigen::Vector3d::Zero();
-  return {Median(axes[0]), Median(axes[1]), Median(axes[2])};
+  if (axes[0].size() < kLeastForOffset) return std::nullopt;
+  return Eigen::Vector3d(Median(axes[0]), Median(axes[1]), Median(axes[2]));
+}
+
+// An error without that offset; `removed` becomes true where there is one.
+Eigen::Vector3d WithoutOffset(const Eigen::Vector3d& error_m,
+                              const std::optional<Eigen::Vector3d>& offset_m, bool& removed) {
+  removed = removed || offset_m;
+  return offset_m ? Eigen::Vector3d(error_m - *offset_m) : error_m;
 }
 
 struct JointTally {
@@ -85,7 +93,7 @@ std::string_view StageName(RealStage stage) {
   return "";
 }
 
-StillResult JudgeStill(const RealSet& set, const RealStill& still, tracker::Tracker& tracker) {
+StillResult EvaluateStill(const RealSet& set, const RealStill& still, tracker::Tracker& tracker) {
   StillResult result;
   for (const RealTruth& truth : still.truth) {
     result.has_truth.push_back(truth.position_m || truth.pixel);
@@ -126,7 +134,8 @@ StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& resul
     for (size_t j = 0; j < set.joints.size(); ++j) {
       if (!results[i].has_truth[j] || !errors->second[j]) continue;
       const Eigen::Vector3d error_m =
-          *errors->second[j] - OffsetFor(set, results, RealStage::kFinal, i, j);
+          WithoutOffset(*errors->second[j], OffsetFor(set, results, RealStage::kFinal, i, j),
+                        score.offset_removed);
       const bool is_near = error_m.norm() <= kNear_m;
       const bool tracked = results[i].tracked[j];
       ++(tracked ? score.tracked : score.others);
@@ -145,7 +154,9 @@ RawAndFinal ScoreRawAndFinal(const RealSet& set, const std::vector<StillResult>&
     for (size_t j = 0; j < set.joints.size(); ++j) {
       if (!raw->second[j] || !final->second[j]) continue;
       const auto off_cm = [&](RealStage stage, const Eigen::Vector3d& error_m) {
-        return 100 * (error_m - OffsetFor(set, results, stage, i, j)).norm();
+        return 100 *
+               WithoutOffset(error_m, OffsetFor(set, results, stage, i, j), score.offset_removed)
+                   .norm();
       };
       ++score.joints;
       score.raw_cm += off_cm(RealStage::kRaw, *raw->second[j]);
@@ -162,7 +173,6 @@ StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& result
                       bool remove_offset, const std::vector<bool>& counted) {
   StageScore score;
   score.stage = stage;
-  score.offset_removed = remove_offset;
   std::map<std::string, JointTally> tallies;
   double sum_m = 0;
   int64_t within_5cm = 0, within_10cm = 0;
@@ -174,7 +184,10 @@ StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& result
       ++score.joints, ++tally.joints;
       if (errors == results[i].errors.end() || !errors->second[j]) continue;
       Eigen::Vector3d error_m = *errors->second[j];
-      if (remove_offset) error_m -= OffsetFor(set, results, stage, i, j);
+      if (remove_offset) {
+        error_m =
+            WithoutOffset(error_m, OffsetFor(set, results, stage, i, j), score.offset_removed);
+      }
       const double distance_m = error_m.norm();
       ++score.found;
       sum_m += distance_m;
