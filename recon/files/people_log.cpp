@@ -2,16 +2,9 @@
 
 #include "depth/base/atomic_file.h"
 #include "recon/files/people_log_internal.h"
+#include "recon/placed_joint.h"
 
 namespace ossa::recon {
-namespace {
-
-bool HasPlacedJoint(const BodyRecord& body) {
-  return std::any_of(body.joints.begin(), body.joints.end(),
-                     [](const auto& joint) { return joint && HasPlace(*joint); });
-}
-
-}  // namespace
 
 void PeopleLog::Append(const SkeletonFrame& frame) {
   for (const BodyRecord& body : frame.bodies) {

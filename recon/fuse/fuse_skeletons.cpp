@@ -15,6 +15,7 @@
 #include "recon/fuse/fuse_joints_internal.h"
 #include "recon/fuse/sighting_internal.h"
 #include "recon/orientation.h"
+#include "recon/placed_joint.h"
 
 namespace ossa::recon {
 namespace {
@@ -34,11 +35,6 @@ std::vector<CameraTracks> TakeTracks(std::span<const SkeletonSequence> sequences
                    cameras[k].clock_offset_s});
   }
   return all;
-}
-
-bool HasAnyPlace(const BodyRecord& body) {
-  return std::any_of(body.joints.begin(), body.joints.end(),
-                     [](const auto& joint) { return joint && HasPlace(*joint); });
 }
 
 /// Time range of a recording, camera 0's clock.
@@ -78,14 +74,14 @@ std::vector<BodySighting> SightingsOf(const SkeletonFrame& frame,
                                       const std::vector<CameraTracks>& cameras) {
   std::vector<BodySighting> sightings;
   for (const BodyRecord& body : frame.bodies) {
-    if (!HasAnyPlace(body)) continue;
+    if (!HasPlacedJoint(body)) continue;
     sightings.push_back(MakeSighting(0, body, Eigen::Isometry3d::Identity()));
   }
   for (size_t k = 1; k < cameras.size(); ++k) {
     const double time_s = frame.time_s - cameras[k].clock_offset_s;
     for (const BodyTrack& track : cameras[k].tracks) {
       auto body = BodyAt(track, time_s);
-      if (!body || !HasAnyPlace(*body)) continue;
+      if (!body || !HasPlacedJoint(*body)) continue;
       sightings.push_back(MakeSighting(k, std::move(*body), cameras[k].camera_0_from_camera));
     }
   }

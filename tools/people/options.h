@@ -247,17 +247,19 @@ struct InitiationOptions {
   // A track this young: a chance detection of another object has a low mean.
   double early_track_score = 0.4;  // score
   int early_age = 12;              // detections
-  // Most likely furniture: candidates that were rejected or never foreground; tracks without any
-  // movement after still_age observations (less, as a person behind a chair may seem not to move).
-  double still_candidate_score = 0.75;  // score
-  double still_track_score = 0.7;       // score
-  int still_age = 10;                   // detections
-  int mature_age = 30;                  // detections; then a person who bends down stays a person
-  double occluded_share = 0.12;         // share of the silhouette; above, a part may be occluded
-  double forget_s = 2.0;                // age of an unseen tentative track when it is deleted
-  int max_observations = 8;             // in the mean of a tentative track
-  double unbroken_s = 0.12;             // three frames at 30 Hz: single ones may be missed
-  double min_common_share = 0.6;        // of the larger segment's cells: the same object as before
+  // Mean score of a new track that moves but was rejected before or was never foreground: a surface
+  // that grows while a person who hid it walks past seems to move, too.
+  double doubtful_mean_score = 0.75;  // score
+  // Tracks without any movement after still_age observations are most likely furniture; lower,
+  // because a person behind a chair may seem not to move.
+  double still_track_score = 0.7;  // score
+  int still_age = 10;              // detections
+  int mature_age = 30;             // detections; then a person who bends down stays a person
+  double occluded_share = 0.12;    // share of the silhouette; above, a part may be occluded
+  double forget_s = 2.0;           // age of an unseen tentative track when it is deleted
+  int max_observations = 8;        // in the mean of a tentative track
+  double unbroken_s = 0.12;        // three frames at 30 Hz: single ones may be missed
+  double min_common_share = 0.6;   // of the larger segment's cells: the same object as before
   float step_m = 0.25F;  // largest movement between two observations of moving foreground,
   double step_s = 0.2;   // ... which are at most this far apart
   int max_users = 6;     // most people tracked at a time, >= 1; the SDK's

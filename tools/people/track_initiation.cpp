@@ -149,7 +149,7 @@ double RequireOnAverage(const TentativeTrack& track, const Detection& detection,
     return IsVerifiedByPose(detection) ? options.person_by_pose_score : options.confident_score;
   // A surface that grows without being foreground may be uncovered by a person who passes.
   const bool doubtful = track.was_rejected || !track.was_foreground;
-  return doubtful ? options.still_candidate_score : options.new_person_score;
+  return doubtful ? options.doubtful_mean_score : options.new_person_score;
 }
 
 Decision DescribeTentative(const Detection& detection, const TentativeTrack& track, Rule rule,
