@@ -83,73 +83,94 @@ TEST(RefinementCascade, KnowsTheForestWhoseJointsItRefines) {
   EXPECT_EQ(JointRefiner(cascade).forest_checksum(), 0x0123456789abcdef);
 }
 
-TEST(RefinementCascade, OfTheVersionsBeforeIsReadAndOlderOnesAreRefused) {
-  const ossa::test::TemporaryFolder folder;
-  SilentAndBoneConditioned().Save(folder / "now.ossarefine");
-  ContainerFormat format = {
-      {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, RefinementCascade::kVersion, "cascade"};
-  std::vector<std::byte> payload =
-      Decompress(ReadContainer(folder / "now.ossarefine", format), "now", "cascade");
-  constexpr auto kFromAbove = static_cast<std::ptrdiff_t>(sizeof(uint64_t));  // after the people
-  constexpr auto kForest = static_cast<std::ptrdiff_t>(kFromAbove + sizeof(uint32_t));
-  const auto without_forest = [](std::vector<std::byte> bytes) {
+class EarlierCascadeFiles : public testing::Test {
+ protected:
+  // The payload of a file of the current version, decompressed.
+  std::vector<std::byte> SavedPayload(const RefinementCascade& cascade) {
+    cascade.Save(folder_ / "now.ossarefine");
+    return Decompress(ReadContainer(folder_ / "now.ossarefine", format_), "now", "cascade");
+  }
+  static std::vector<std::byte> WithoutForest(std::vector<std::byte> bytes) {
     bytes.erase(bytes.begin() + kForest, bytes.begin() + kForest + sizeof(uint64_t));
     return bytes;
-  };
-  const auto without_view = [&](std::vector<std::byte> bytes) {
-    bytes = without_forest(std::move(bytes));
+  }
+  static std::vector<std::byte> WithoutView(std::vector<std::byte> bytes) {
+    bytes = WithoutForest(std::move(bytes));
     bytes.erase(bytes.begin() + kFromAbove, bytes.begin() + kForest);
     return bytes;
-  };
-  format.version = 7;
-  WriteContainer(folder / "seven.ossarefine", format, Compress(without_forest(payload), 3));
-  EXPECT_EQ(RefinementCascade::Load(folder / "seven.ossarefine").bone_conditioned.size(), 1U);
-  EXPECT_EQ(RefinementCascade::Load(folder / "seven.ossarefine").forest_checksum, 0U);
-  EXPECT_EQ(JointRefiner::Load(folder / "seven.ossarefine").forest_checksum(), 0U);
-  payload = without_view(std::move(payload));
-  format.version = 6;
-  WriteContainer(folder / "six.ossarefine", format, Compress(payload, 3));
-  EXPECT_EQ(RefinementCascade::Load(folder / "six.ossarefine").bone_conditioned.size(), 1U);
-  EXPECT_FALSE(JointRefiner::Load(folder / "six.ossarefine").from_above());
-  format.version = 5;  // not compressed
-  WriteContainer(folder / "before.ossarefine", format, payload);
-  EXPECT_EQ(RefinementCascade::Load(folder / "before.ossarefine").bone_conditioned.size(), 1U);
+  }
+  // Before stages were conditioned on bones.
+  std::vector<std::byte> OldestPayload() {
+    RefinementCascade cascade = SilentAndBoneConditioned();
+    cascade.bone_conditioned.clear();
+    std::vector<std::byte> bytes = WithoutView(SavedPayload(cascade));
+    bytes.resize(bytes.size() - sizeof(uint32_t));  // the number of conditioned stages
+    return bytes;
+  }
+  std::string Written(uint32_t version, const std::vector<std::byte>& payload) {
+    ContainerFormat format = format_;
+    format.version = version;
+    WriteContainer(folder_ / "earlier.ossarefine", format, payload);
+    return folder_ / "earlier.ossarefine";
+  }
 
-  RefinementCascade cascade = SilentAndBoneConditioned();
-  cascade.bone_conditioned.clear();
-  cascade.Save(folder / "unconditioned.ossarefine");
-  format.version = RefinementCascade::kVersion;
-  payload = Decompress(ReadContainer(folder / "unconditioned.ossarefine", format), "unconditioned",
-                       "cascade");
-  payload = without_view(std::move(payload));
-  payload.resize(payload.size() - sizeof(uint32_t));  // how many stages are conditioned
-  format.version = RefinementCascade::kOldestVersion;
-  WriteContainer(folder / "old.ossarefine", format, payload);
-  const RefinementCascade old = RefinementCascade::Load(folder / "old.ossarefine");
-  EXPECT_EQ(old.measured, 3U);
-  EXPECT_TRUE(old.bone_conditioned.empty());
-  old.Save(folder / "again.ossarefine");
-  EXPECT_NO_THROW(RefinementCascade::Load(folder / "again.ossarefine"));
-  format.version = RefinementCascade::kOldestVersion - 1;
-  WriteContainer(folder / "older.ossarefine", format, payload);
-  EXPECT_THROW(RefinementCascade::Load(folder / "older.ossarefine"), InputError);
+  static constexpr auto kFromAbove = static_cast<std::ptrdiff_t>(sizeof(uint64_t));  // after people
+  static constexpr auto kForest = static_cast<std::ptrdiff_t>(kFromAbove + sizeof(uint32_t));
+  const ossa::test::TemporaryFolder folder_;
+  const ContainerFormat format_ = {
+      {'O', 'S', 'S', 'A', 'L', 'K', '0', '0'}, RefinementCascade::kVersion, "cascade"};
+};
+
+TEST_F(EarlierCascadeFiles, WithoutAForestAreRead) {
+  const auto file =
+      Written(7, Compress(WithoutForest(SavedPayload(SilentAndBoneConditioned())), 3));
+  EXPECT_EQ(RefinementCascade::Load(file).bone_conditioned.size(), 1U);
+  EXPECT_EQ(RefinementCascade::Load(file).forest_checksum, 0U);
+  EXPECT_EQ(JointRefiner::Load(file).forest_checksum(), 0U);
 }
 
-TEST(RefinementCascade, WithOddNumbersIsRefused) {
+TEST_F(EarlierCascadeFiles, WithoutAViewAreReadAsLevel) {
+  const auto file = Written(6, Compress(WithoutView(SavedPayload(SilentAndBoneConditioned())), 3));
+  EXPECT_EQ(RefinementCascade::Load(file).bone_conditioned.size(), 1U);
+  EXPECT_FALSE(JointRefiner::Load(file).from_above());
+}
+
+TEST_F(EarlierCascadeFiles, WithoutCompressionAreRead) {
+  const auto file = Written(5, WithoutView(SavedPayload(SilentAndBoneConditioned())));
+  EXPECT_EQ(RefinementCascade::Load(file).bone_conditioned.size(), 1U);
+}
+
+TEST_F(EarlierCascadeFiles, OfTheOldestVersionAreReadAndSavedAgain) {
+  const RefinementCascade old =
+      RefinementCascade::Load(Written(RefinementCascade::kOldestVersion, OldestPayload()));
+  EXPECT_EQ(old.measured, 3U);
+  EXPECT_TRUE(old.bone_conditioned.empty());
+  old.Save(folder_ / "again.ossarefine");
+  EXPECT_NO_THROW(RefinementCascade::Load(folder_ / "again.ossarefine"));
+}
+
+TEST_F(EarlierCascadeFiles, BeforeTheOldestVersionAreRefused) {
+  const auto file = Written(RefinementCascade::kOldestVersion - 1, OldestPayload());
+  EXPECT_THROW(RefinementCascade::Load(file), InputError);
+}
+
+// Saves the cascade and expects that reading it names the field.
+void ExpectRefused(const RefinementCascade& cascade, const char* field) {
   const ossa::test::TemporaryFolder folder;
-  const auto refused_cascade = [&](const RefinementCascade& cascade, const char* field) {
-    cascade.Save(folder / "odd.ossarefine");
-    try {
-      RefinementCascade::Load(folder / "odd.ossarefine");
-      ADD_FAILURE() << field;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
-    }
-  };
-  const auto refused = [&](void (*spoil)(Perceptron&), const char* field) {
+  cascade.Save(folder / "odd.ossarefine");
+  try {
+    RefinementCascade::Load(folder / "odd.ossarefine");
+    ADD_FAILURE() << field;
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
+  }
+}
+
+TEST(RefinementCascade, WithAnInvalidNetworkIsRefused) {
+  const auto refused = [](void (*damage)(Perceptron&), const char* field) {
     RefinementCascade cascade = Silent();
-    spoil(cascade.stages[0][4]);
-    refused_cascade(cascade, field);
+    damage(cascade.stages[0][4]);
+    ExpectRefused(cascade, field);
   };
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   refused([](Perceptron& n) { n.input_mean[5] = std::nanf(""); }, "input means");
@@ -158,24 +179,32 @@ TEST(RefinementCascade, WithOddNumbersIsRefused) {
   refused([](Perceptron& n) { n.layers[0].bias.setZero(1 << 15); }, "units");
   refused([](Perceptron& n) { n.layers[1].weight.setZero(2, 4); }, "output weights");
   refused([](Perceptron& n) { n.layers.resize(9, n.layers[1]); }, "layers");
+}
+
+TEST(RefinementCascade, WithABoneNetworkOfAnotherSizeIsRefused) {
   RefinementCascade cascade = Silent();
   cascade.measured = 1;
   cascade.bones = RandomPerceptron({kBoneFeatures, 4, 3});
-  refused_cascade(cascade, "output weights");
+  ExpectRefused(cascade, "output weights");
   cascade.bones = RandomPerceptron({kBoneFeatures - 1, 4, kEstimatedBones.size()});
-  refused_cascade(cascade, "input means");
+  ExpectRefused(cascade, "input means");
+}
 
+TEST(RefinementCascade, WithTooManyOrNoStagesIsRefused) {
   for (const size_t stages : {size_t{0}, RefinementCascade::kMaxStages + 1}) {
-    cascade = Silent();
+    RefinementCascade cascade = Silent();
     cascade.stages.resize(stages, Silent().stages[0]);
-    refused_cascade(cascade, "stages");
+    ExpectRefused(cascade, "stages");
   }
-  cascade = SilentAndBoneConditioned();
+  RefinementCascade cascade = SilentAndBoneConditioned();
   cascade.bone_conditioned.resize(RefinementCascade::kMaxStages + 1, cascade.bone_conditioned[0]);
-  refused_cascade(cascade, "bone-conditioned stages");
-  cascade = SilentAndBoneConditioned();
+  ExpectRefused(cascade, "bone-conditioned stages");
+}
+
+TEST(RefinementCascade, WithABoneConditionedStageOfAnotherSizeIsRefused) {
+  RefinementCascade cascade = SilentAndBoneConditioned();
   cascade.bone_conditioned[0][1].input_mean.setZero(kStageFeatures);
-  refused_cascade(cascade, "input means");
+  ExpectRefused(cascade, "input means");
 }
 
 }  // namespace

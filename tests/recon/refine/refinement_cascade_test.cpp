@@ -59,8 +59,8 @@ TEST(RefinementCascade, TellsWhatIsBesideAndWhatIsHidden) {
   EXPECT_EQ(centre().hidden(), 1.0F);
 }
 
-TEST(RefinementCascade, OfTheMirrorImageIsTheMirrorImage) {
-  Scene scene;
+// A person without symmetry, on a slanted surface.
+void MakeAsymmetric(Scene& scene) {
   scene.frame.camera.cx = (kWidth - 1) / 2.0;
   scene.input.proposed[Joint::kHandLeft] += Eigen::Vector3d(0.1, 0.3, -0.2);
   scene.input.confidence[Joint::kKneeRight] = 0.1;
@@ -72,7 +72,9 @@ TEST(RefinementCascade, OfTheMirrorImageIsTheMirrorImage) {
       scene.is_person[i] = u < 100 ? 1 : 0;
     }
   }
-  Scene mirror;
+}
+
+void MirrorInto(const Scene& scene, Scene& mirror) {
   mirror.frame.camera = scene.frame.camera;
   for (size_t j = 0; j < kJointCount; ++j) {
     const auto other = kMirroredJoint[j];
@@ -86,6 +88,12 @@ TEST(RefinementCascade, OfTheMirrorImageIsTheMirrorImage) {
     mirror.frame.depth_mm[other] = scene.frame.depth_mm[i];
     mirror.is_person[other] = scene.is_person[i];
   }
+}
+
+TEST(RefinementCascade, OfTheMirrorImageIsTheMirrorImage) {
+  Scene scene, mirror;
+  MakeAsymmetric(scene);
+  MirrorInto(scene, mirror);
   const SampledPerson expected = *SampledPerson::Sample(mirror.input);
   const SampledPerson got = SampledPerson::Sample(scene.input)->Mirrored();
   EXPECT_TRUE(got.middle_m.isApprox(expected.middle_m));

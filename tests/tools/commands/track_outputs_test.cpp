@@ -82,10 +82,9 @@ nlohmann::json FindDecision(const nlohmann::json& frame, const std::string& rule
   return {};
 }
 
-TEST(TrackCommand, TracesTheDecidingRuleOfEveryCandidate) {
-  OSSA_NEEDS_MODEL();
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "in");
+// A person beside a small box, a board and a wardrobe, as one image in a folder.
+void WritePersonAndFurniture(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
   tests::CapsuleScene scene;
   scene.people = {PersonAt(-0.9, 2.6)};
   scene.planes = tests::EmptyRoom();
@@ -93,7 +92,13 @@ TEST(TrackCommand, TracesTheDecidingRuleOfEveryCandidate) {
                  {{0.4, -0.5, 2.2}, {0.75, 0.1, 2.25}},   // a board
                  {{1.1, -1.0, 3.0}, {2.0, 0.9, 3.5}}};    // a wardrobe
   const auto render = tests::Render(scene, depth::KinectV1Camera(320, 240));
-  depth::WriteDepthPng(folder / "in/0.png", render.frame.view());
+  depth::WriteDepthPng(folder / "0.png", render.frame.view());
+}
+
+TEST(TrackCommand, TracesTheDecidingRuleOfEveryCandidate) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WritePersonAndFurniture(folder / "in");
   const auto trace = folder / "trace.jsonl";
   const CommandResult result = RunOssa({"track", folder / "in", "--trace", trace.string()});
   ASSERT_EQ(result.exit_status, 0) << result.err;

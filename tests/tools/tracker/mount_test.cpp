@@ -44,7 +44,7 @@ struct Place {
 };
 
 // Images of a person in motion; a clip is by an Xtion, others by a Kinect v1.
-std::vector<LabelledFrame> Shoot(const Place& place, int poses, int images) {
+std::vector<LabelledFrame> RenderFrame(const Place& place, int poses, int images) {
   tools::FrameOptions options;
   options.width = 320;
   options.height = 240;
@@ -64,7 +64,7 @@ std::vector<LabelledFrame> Shoot(const Place& place, int poses, int images) {
 
 const std::vector<LabelledFrame>& CeilingClip() {
   static const std::vector<LabelledFrame> clip =
-      Shoot({tools::View::kCeiling, tools::Background::kRoom, 2, true}, 10, 10);
+      RenderFrame({tools::View::kCeiling, tools::Background::kRoom, 2, true}, 10, 10);
   return clip;
 }
 
@@ -72,7 +72,7 @@ const std::vector<LabelledFrame>& CeilingClip() {
 int CountCeilings(const Place& place, int images) {
   Tracker tracker;
   int ceilings = 0;
-  for (const LabelledFrame& shot : Shoot(place, 300, images)) {
+  for (const LabelledFrame& shot : RenderFrame(place, 300, images)) {
     tracker.Reset();
     tracker.Track(shot.depth);
     ceilings += tracker.mount() == Mount::kCeiling ? 1 : 0;
@@ -132,7 +132,7 @@ TEST(Mount, UnderACeilingFurnitureDoesNotBecomeAPersonByAndBy) {
   under_ceiling.mount = Mount::kCeiling;
   Tracker tracker(under_ceiling);
   const Place shop{tools::View::kCeiling, tools::Background::kLivedIn, 2, true};
-  for (const LabelledFrame& shot : Shoot(shop, 240, 24)) {
+  for (const LabelledFrame& shot : RenderFrame(shop, 240, 24)) {
     EXPECT_EQ(tracker.Track(shot.depth).bodies.size(), 1U) << shot.depth.index;
   }
 }

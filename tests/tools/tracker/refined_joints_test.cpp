@@ -89,33 +89,40 @@ TEST(RefinedJoints, BestHasTheBonesThatTheCascadeEstimates) {
   EXPECT_NEAR(shin_m(1.5F) / shin_m(1.0F), 1.5, 0.01);  // in a file, weights are halves
 }
 
-// Who walks away is measured longer and longer; the head rises by a step for each step of the spine
-// that the stage reads, which is the mean of the frames before.
-TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfAllFramesBefore) {
-  OSSA_NEEDS_MODEL();
+// The frames of a person who walks away, with refined joints by this cascade.
+std::vector<Body> TrackWalkAway(const recon::RefinementCascade& cascade) {
   const test::TemporaryFolder folder;
-  recon::RefinementCascade look = HeadHigher(0.0F);
-  MeasureByDistance(&look);
-  const auto track = [&] {
-    ModelFiles files;
-    files.refinement = folder / "bones.ossarefine";
-    look.Save(files.refinement);
-    std::vector<Body> frames;
-    Tracker tracker(OptionsWith(files));
-    for (int i = 0; i < 20; ++i) {
-      const auto now = tracker.Track(Rendered({PersonAt(0, 2.3 + 0.02 * i)}, i).frame);
-      if (!now.bodies.empty() && now.bodies[0].refined) frames.push_back(now.bodies[0]);
-    }
-    return frames;
-  };
-  const std::vector<Body> without = track();
-  recon::RefinementStage& stage = look.bone_conditioned.emplace_back();
+  ModelFiles files;
+  files.refinement = folder / "bones.ossarefine";
+  cascade.Save(files.refinement);
+  std::vector<Body> frames;
+  Tracker tracker(OptionsWith(files));
+  for (int i = 0; i < 20; ++i) {
+    const auto now = tracker.Track(Rendered({PersonAt(0, 2.3 + 0.02 * i)}, i).frame);
+    if (!now.bodies.empty() && now.bodies[0].refined) frames.push_back(now.bodies[0]);
+  }
+  return frames;
+}
+
+// A bone-conditioned stage that raises the head by the encoded length of the first bone.
+void RaiseHeadByBones(recon::RefinementCascade* cascade) {
+  recon::RefinementStage& stage = cascade->bone_conditioned.emplace_back();
   for (size_t k = 0; k < stage.size(); ++k) {
     stage[k] = test::SilentPerceptron({recon::kBoneConditionedFeatures, 3});
     const bool head = recon::kStageJoints[k] == Joint::kHead;
     if (head) stage[k].layers[0].weight(recon::kStageFeatures, 1) = 1.0F;
   }
-  const std::vector<Body> with = track();
+}
+
+// The estimated bones of a person who walks away grow; the head rises by the length that the stage
+// reads, which is the mean of the frames before.
+TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfAllFramesBefore) {
+  OSSA_NEEDS_MODEL();
+  recon::RefinementCascade look = HeadHigher(0.0F);
+  MeasureByDistance(&look);
+  const std::vector<Body> without = TrackWalkAway(look);
+  RaiseHeadByBones(&look);
+  const std::vector<Body> with = TrackWalkAway(look);
   ASSERT_EQ(with.size(), without.size());
   ASSERT_GT(with.size(), 10U);
   recon::BoneLengthEstimator before(recon::BoneLengthOptions::ForNetworkEstimates());

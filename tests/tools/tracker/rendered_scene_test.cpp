@@ -57,13 +57,13 @@ class Studio {
     pose.root_m += parts_[person].place_m / actors_[person].body().root_scale;
     return actors_[person].Take(pose, from_world_);
   }
-  depth::DepthFrame Shoot(int frame) {
+  depth::DepthFrame RenderFrame(int frame) {
     for (size_t k = 0; k < actors_.size(); ++k) {
       Take(k, frame / 30.0);
       actors_[k].Show(renderer_);
     }
-    depth::DepthFrame shot = tools::SenseActors(renderer_, depth::KinectV1Camera(320, 240), model_,
-                                                actors_, static_cast<uint64_t>(frame) + 1)
+    depth::DepthFrame shot = tools::RenderActors(renderer_, depth::KinectV1Camera(320, 240), model_,
+                                                 actors_, static_cast<uint64_t>(frame) + 1)
                                  .depth;
     shot.index = frame;
     shot.time_s = frame / 30.0;
@@ -102,7 +102,7 @@ Played Track(Studio& studio, const SceneOptions& scene, int frames, const Watche
   Played played;
   std::map<int, recon::Posture> before;
   for (int f = 0; f < frames; ++f) {
-    const BodyFrame frame = tracker.Track(studio.Shoot(f));
+    const BodyFrame frame = tracker.Track(studio.RenderFrame(f));
     played.seen.Update(*tracker.scene());
     for (const SceneObjectState& object : frame.objects) {
       EXPECT_TRUE(object.position_m.allFinite());
