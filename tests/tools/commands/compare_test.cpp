@@ -6,6 +6,7 @@
 
 #include "recon/files/skeleton_io.h"
 #include "tests/recon/files/skeleton_examples.h"
+#include "tests/recon/synthetic_motion.h"
 #include "tests/support/places.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
@@ -111,6 +112,35 @@ TEST_F(CompareCommand, WarnsWhenAResultIsMirrored) {
   EXPECT_NE(run.out.find("--mirrored"), std::string::npos) << run.out;
   run = RunOssa({"compare", truth_, near_, far_});
   EXPECT_EQ(run.out.find("--mirrored"), std::string::npos) << run.out;
+}
+
+// A moving person from `begin_s` of the motion on, in a file whose times begin at 0.
+recon::SkeletonSequence SwingingFrom(double begin_s) {
+  recon::SkeletonSequence sequence;
+  for (int f = 0; f < 300; ++f) {
+    recon::SkeletonFrame& frame = sequence.frames.emplace_back();
+    frame.frame = f;
+    frame.time_s = f / 30.0;
+    const auto posture = recon::test::InFrontOfCamera(recon::test::Motion(begin_s + frame.time_s));
+    recon::BodyRecord& body = frame.bodies.emplace_back();
+    body.id = 1;
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      body.joints[j].emplace().position_m = posture.position_m[j];
+    }
+  }
+  return sequence;
+}
+
+TEST_F(CompareCommand, NamesTheOffsetOfAResultThatBeganLaterWithTheSameFrameTimes) {
+  const std::string first = folder_ / "first.jsonl", late = folder_ / "late.jsonl";
+  recon::WriteSkeletons(first, SwingingFrom(0.0));
+  recon::WriteSkeletons(late, SwingingFrom(0.8));
+  auto run = RunOssa({"compare", first, late});
+  EXPECT_NE(run.out.find("late.jsonl is far nearer to the truth with +0.80 s added to its times"),
+            std::string::npos)
+      << run.out;
+  run = RunOssa({"compare", first, late, "--time", "correlate"});
+  EXPECT_EQ(run.out.find("added to its times"), std::string::npos) << run.out;
 }
 
 TEST_F(CompareCommand, ReadsTruthAndEstimateFromOneFileThatHoldsBoth) {

@@ -61,8 +61,8 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
 /// The object of `ossa compare --json` (docs/architecture.md), with confidence intervals, clips and
 /// tests beside the measures.
 std::string ToJson(const Comparison& comparison);
-/// A suggestion if the errors show that the skeletons are in different coordinate systems, or that
-/// one is mirrored; else "".
+/// A suggestion if the errors show that the skeletons are in different coordinate systems or on
+/// different clocks, or that one is mirrored; else "".
 std::string MakeAdvice(const Comparison& comparison);
 /// Tables for a terminal.
 std::string ToText(const Comparison& comparison);

@@ -167,25 +167,6 @@ Table TestTable(const Comparison& comparison) {
   return table;
 }
 
-// Of one clip after the other: a folder may hold mirrored ones beside others.
-std::string MakeMirroringAdvice(const ComparedResult& result) {
-  // Errors of ordinary tracking are about as large in a mirror, or larger; where a person stands as
-  // a mirror would show them, they are alike.
-  constexpr double kFarNearer = 0.5;  // ratio, no unit; by hand
-  constexpr double kLeast_cm = 4.0;   // by hand
-  for (const PairedTracks& pair : result.pairs) {
-    const auto error_cm = Measure(pair).parent_relative_error_cm;
-    const auto mirrored_cm = MirroredRelativeError_cm(pair);
-    if (!error_cm || !mirrored_cm) continue;
-    if (*error_cm < kLeast_cm || *mirrored_cm > kFarNearer * *error_cm) continue;
-    return fmt::format(
-        "{} is far nearer to the truth as a mirror shows it (parent-relative error {:.1f} instead "
-        "of {:.1f} cm): if its depth images were mirrored, track them with --mirrored.",
-        result.label, *mirrored_cm, *error_cm);
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string ToJson(const Comparison& comparison) {
@@ -207,20 +188,6 @@ std::string ToJson(const Comparison& comparison) {
                              {"p_bonferroni", test.corrected_p}});
   }
   return JsonText(json) + "\n";
-}
-
-std::string MakeAdvice(const Comparison& comparison) {
-  constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole; by hand
-  if (comparison.rigid) return "";
-  for (const ComparedResult& result : comparison.results) {
-    if (std::string advice = MakeMirroringAdvice(result); !advice.empty()) return advice;
-    const auto error_cm = result.mean.mean_joint_error_cm;
-    if (!error_cm || *error_cm < kApart_cm) continue;
-    return fmt::format(
-        "{} lies {:.1f} m away from the truth: if their origins or axes differ, add --align rigid.",
-        result.label, *error_cm / 100.0);
-  }
-  return "";
 }
 
 std::string ToText(const Comparison& comparison) {

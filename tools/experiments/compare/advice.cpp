@@ -1,0 +1,115 @@
+// What may be wrong with a comparison as a whole, rather than with the result.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "tools/experiments/compare/clock_offset.h"
+#include "tools/experiments/compare/comparison.h"
+
+namespace ossa::tools {
+namespace {
+
+// Constants: by hand, where nothing else is said.
+
+// Errors of ordinary tracking are about as large in a mirror, or at another time, or larger; where
+// a person stands as a mirror would show them, they are alike.
+constexpr double kFarNearer = 0.5;  // ratio, no unit
+constexpr double kLeast_cm = 4.0;
+
+bool IsFarNearer(const std::optional<double>& other_cm, const std::optional<double>& error_cm) {
+  return other_cm && error_cm && *error_cm >= kLeast_cm && *other_cm <= kFarNearer * *error_cm;
+}
+
+// Of one clip after the other: a folder may hold mirrored ones beside others.
+std::string AdviseOnMirroring(const ComparedResult& result) {
+  for (const PairedTracks& pair : result.pairs) {
+    const auto error_cm = Measure(pair).parent_relative_error_cm;
+    const auto mirrored_cm = MirroredRelativeError_cm(pair);
+    if (!IsFarNearer(mirrored_cm, error_cm)) continue;
+    return fmt::format(
+        "{} is far nearer to the truth as a mirror shows it (parent-relative error {:.1f} instead "
+        "of {:.1f} cm): if its depth images were mirrored, track them with --mirrored.",
+        result.label, *mirrored_cm, *error_cm);
+  }
+  return "";
+}
+
+// The beginning of a pair: enough to tell its clocks by, and quickly searched.
+PairedTracks SelectBeginning(const PairedTracks& pair) {
+  constexpr double kEnough_s = 60.0;
+  PairedTracks beginning;
+  for (size_t f = 0; f < pair.time_s.size(); ++f) {
+    if (pair.time_s[f] > pair.time_s.front() + kEnough_s) break;
+    beginning.time_s.push_back(pair.time_s[f]);
+    beginning.truth.push_back(pair.truth[f]);
+    beginning.result.push_back(pair.result[f]);
+  }
+  return beginning;
+}
+
+// The same with `offset_s` added to the result's times.
+PairedTracks AtOffset(const PairedTracks& pair, double offset_s) {
+  const JointTrack truth{pair.time_s, pair.truth};
+  PairedTracks moved;
+  for (size_t f = 0; f < pair.time_s.size(); ++f) {
+    const double time_s = pair.time_s[f] + offset_s;
+    const auto posture = PostureAt(truth, time_s);
+    if (!posture) continue;
+    moved.time_s.push_back(time_s);
+    moved.truth.push_back(*posture);
+    moved.result.push_back(pair.result[f]);
+  }
+  return moved;
+}
+
+// Files that begin at 0 at the same rate have the same frame times, whenever each was begun.
+std::string AdviseOnClock(const ComparedResult& result) {
+  constexpr double kFarthest_s = 2.0;   // as PairOptions::max_offset_s
+  constexpr double kShortest_s = 0.15;  // what is less may be a filter's lag, which is an error
+  int searches = 5;  // for speed: of a folder of long recordings the first that are far off
+  for (const PairedTracks& whole : result.pairs) {
+    if (!whole.same_clock || searches == 0) continue;
+    const PairedTracks pair = SelectBeginning(whole);
+    const auto error_cm = Measure(pair).parent_relative_error_cm;
+    if (error_cm.value_or(0) < kLeast_cm) continue;
+    --searches;
+    const double offset_s =
+        MatchClocks({pair.time_s, pair.truth}, {pair.time_s, pair.result}, kFarthest_s).offset_s;
+    if (std::abs(offset_s) < kShortest_s) continue;
+    const auto moved_cm = Measure(AtOffset(pair, offset_s)).parent_relative_error_cm;
+    if (!IsFarNearer(moved_cm, error_cm)) continue;
+    return fmt::format(
+        "{} is far nearer to the truth with {:+.2f} s added to its times (parent-relative error "
+        "{:.1f} instead of {:.1f} cm): if their clocks differ, add --time correlate.",
+        result.label, offset_s, *moved_cm, *error_cm);
+  }
+  return "";
+}
+
+std::string AdviseOnOrigin(const ComparedResult& result) {
+  constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole
+  const auto error_cm = result.mean.mean_joint_error_cm;
+  if (!error_cm || *error_cm < kApart_cm) return "";
+  return fmt::format(
+      "{} lies {:.1f} m away from the truth: if their origins or axes differ, add --align rigid.",
+      result.label, *error_cm / 100.0);
+}
+
+}  // namespace
+
+std::string MakeAdvice(const Comparison& comparison) {
+  for (const ComparedResult& result : comparison.results) {
+    const bool same_space = !comparison.rigid;
+    if (std::string mirrored = same_space ? AdviseOnMirroring(result) : ""; !mirrored.empty()) {
+      return mirrored;
+    }
+    if (std::string clock = AdviseOnClock(result); !clock.empty()) return clock;
+    if (std::string origin = same_space ? AdviseOnOrigin(result) : ""; !origin.empty()) {
+      return origin;
+    }
+  }
+  return "";
+}
+
+}  // namespace ossa::tools
