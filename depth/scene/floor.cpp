@@ -72,6 +72,13 @@ Fit Score(const std::vector<Measured>& points, const Vector4f& plane) {
   return fit;
 }
 
+// Whether hardly anything is below the plane: few of the points there are, and few for a surface of
+// its size.
+bool IsLowest(const Fit& fit, size_t points, const FloorOptions& options) {
+  return fit.below <= options.max_share_below * static_cast<double>(points) &&
+         fit.below <= options.max_below_per_inlier * fit.inliers;
+}
+
 bool Allowed(const Vector4f& plane, const FloorOptions& options) {
   return plane.head<3>().dot(options.up.cast<float>()) > std::cos(options.max_tilt_rad) &&
          plane[3] > static_cast<float>(options.min_height_m) &&
@@ -148,9 +155,7 @@ Fit Search(const std::vector<Measured>& low, const std::vector<Measured>& sample
     const auto plane = PlaneThrough(a, b, c, up);
     if (!plane || !Allowed(*plane, options)) continue;
     const Fit fit = Score(sample, *plane);
-    if (fit.below > static_cast<int>(options.max_share_below * static_cast<double>(sample.size())))
-      continue;
-    if (fit.inliers > best.inliers) best = fit;
+    if (fit.inliers > best.inliers && IsLowest(fit, sample.size(), options)) best = fit;
   }
   return best;
 }
@@ -159,8 +164,7 @@ std::optional<FloorPlane> Confirmed(const std::vector<Measured>& points, Vector4
                                     const FloorOptions& options) {
   plane = Refine(points, Refine(points, plane, options), options);
   if (!Allowed(plane, options)) return std::nullopt;
-  const Fit fit = Score(points, plane);
-  if (fit.below > options.max_share_below * static_cast<double>(points.size())) return std::nullopt;
+  if (!IsLowest(Score(points, plane), points.size(), options)) return std::nullopt;
   if (!IsVisible(points, plane, options)) return std::nullopt;
   return FloorPlane{plane.cast<double>()};
 }

@@ -49,6 +49,32 @@ TEST(FindFloor, IsAStripAtTheLowerBorder) {
   EXPECT_GE(found, 18);
 }
 
+// The frame before was taken for a plane that leans against the wall: at the corner it has
+// measurements on both sides, more within the tolerance than the strip of floor has, but some
+// below.
+TEST(FindFloor, IsBelowPlanesAskewBetweenItAndTheWall) {
+  struct Row {
+    double tilt_rad, askew_m, wall_m, floor_m;
+  };
+  constexpr Row kRows[] = {{0.45, 2.7, 4.5, 1.2},
+                           {0.5, 2.9, 4.3, 1.3},
+                           {0.55, 3.1, 4.5, 1.3},
+                           {0.6, 3.0, 4.1, 1.2},
+                           {0.65, 3.3, 4.3, 1.3}};
+  constexpr Camera kNarrow{.width = 100, .height = 100, .fx = 119, .fy = 119, .cx = 50, .cy = 50};
+  for (const Row& row : kRows) {
+    CapsuleScene scene;
+    scene.planes = {{{0, 0, -1}, row.wall_m}, {{0, 1, 0}, row.floor_m}};
+    FloorState state;
+    state.plane = FloorPlane{{0, std::cos(row.tilt_rad), -std::sin(row.tilt_rad), row.askew_m}};
+    const auto floor = FindFloor(GridOf(tests::Render(scene, kNarrow)), state);
+    ASSERT_TRUE(floor) << row.askew_m << " " << row.wall_m;
+    // As above: the lowest strip of the wall is within the tolerance.
+    EXPECT_NEAR(floor->coefficients[3], row.floor_m, 0.06) << row.askew_m << " " << row.wall_m;
+    EXPECT_GT(floor->coefficients[1], std::cos(0.02)) << row.askew_m << " " << row.wall_m;
+  }
+}
+
 // A grid seen from this height over the floor.
 PointGrid OverTheFloor(double height_m) {
   CapsuleScene scene;
