@@ -18,6 +18,10 @@ class ThreadLimit {
   std::unique_ptr<Control> control_;
 };
 
+/// Calls `body`, whose parallel loops use at most `threads` threads, > 0. Loops of several callers
+/// at once keep apart.
+void WithThreads(int threads, const std::function<void()>& body);
+
 /// Calls body(i) for each i < count, on as many threads as ThreadLimit allows.
 void ParallelFor(size_t count, const std::function<void(size_t)>& body);
 /// As above on at most `threads` threads; in order if one is enough.

@@ -7,7 +7,6 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include <numeric>
 
 #include "depth/base/cpu_dispatch.h"
+#include "depth/base/threads.h"
 #include "forest/classification/sample_grid_internal.h"
 #include "forest/classification/smoothed_masses_internal.h"
 #include "forest/forest.h"
@@ -242,8 +242,7 @@ int InSteps(double length_m, double step_m) {
 template <typename Function>
 void ForRanges(size_t count, int threads, const Function& function) {
   if (threads <= 1 || count <= kPixelsPerTask) return function(0, count);
-  oneapi::tbb::task_arena arena(threads);
-  arena.execute([&] {
+  WithThreads(threads, [&] {
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<size_t>(0, count, kPixelsPerTask),
                               [&](const auto& range) { function(range.begin(), range.end()); });
   });

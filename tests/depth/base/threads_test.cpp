@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <fstream>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace ossa {
@@ -42,6 +44,47 @@ TEST(ParallelFor, PassesOnWhatIsThrown) {
                              if (i == 30) throw std::runtime_error("no");
                            }),
                std::runtime_error);
+}
+
+double ResidentMegabytes() {
+  constexpr double kPage_mb = 4096.0 / (1 << 20);
+  double size = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident;
+  return resident * kPage_mb;
+}
+
+// A tracker that runs for days starts such loops in every frame.
+TEST(ParallelFor, TakesNoMemoryThatItDoesNotGiveBack) {
+  const auto loop = [](int times) {
+    for (int i = 0; i < times; ++i) ParallelFor(2, 2, [](size_t) {});
+  };
+  loop(100);
+  const double before_mb = ResidentMegabytes();
+  loop(10000);
+  EXPECT_LT(ResidentMegabytes() - before_mb, 10.0) << "7 kB a loop: 70 MB";
+}
+
+// Each caller has an arena of its own, the one within another's loop, too.
+TEST(WithThreads, IsForSeveralCallersAndWithinLoops) {
+  std::atomic<int> done = 0;
+  const auto nested = [&] {
+    WithThreads(
+        2, [&] { ParallelFor(8, 2, [&](size_t) { ParallelFor(4, 2, [&](size_t) { ++done; }); }); });
+  };
+  std::thread other([&] {
+    for (int i = 0; i < 50; ++i) nested();
+  });
+  for (int i = 0; i < 50; ++i) nested();
+  other.join();
+  EXPECT_EQ(done, 2 * 50 * 8 * 4);
+}
+
+TEST(WithThreads, PassesOnWhatIsThrownAndGoesOn) {
+  for (int i = 0; i < 3; ++i)
+    EXPECT_THROW(WithThreads(2, [] { throw std::runtime_error("no"); }), std::runtime_error);
+  int done = 0;
+  WithThreads(2, [&] { ++done; });
+  EXPECT_EQ(done, 1);
 }
 
 }  // namespace
