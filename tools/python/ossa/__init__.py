@@ -24,9 +24,9 @@ help(ossa.Tracker) and so on describe every argument.
 """
 
 from ._camera import Camera
+from ._evaluation import Comparison, compare, evaluate, learn
 from ._forest import Forest
 from ._frames import Body, Fit, Frame, Mesh, Proposals, Thing
-from ._evaluation import Comparison, compare, evaluate, learn
 from ._names import (
     CAMERA_PRESETS,
     JOINTS,
