@@ -91,6 +91,12 @@ void CheckFrame(const depth::DepthFrame& frame) {
 bool Tracker::Impl::ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked) {
   if (options.mount != Mount::kAuto || models.ceiling_file.empty()) return false;
   if (!mount_finder.IsDue(tracked)) return false;
+  const int quarters = QuarterTurns();
+  return quarters == 0 ? ConfirmCeilingView(frame, tracked)
+                       : ConfirmCeilingView(depth::Turned(frame, quarters), tracked);
+}
+
+bool Tracker::Impl::ConfirmCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked) {
   people::PeopleOptions from_above = people::PeopleOptionsFromAbove();
   const MountOptions& mount = mount_finder.options();
   from_above.candidates.overhead->min_head_m = mount.min_head_m;

@@ -43,6 +43,8 @@ struct Tracker::Impl {
   // Settings that the application changed since construction.
   void CopySettings(const Impl& other);
   bool ShowsCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked);
+  // `frame`: upright, because the check reads what the lower image border cuts off.
+  bool ConfirmCeilingView(const depth::DepthFrame& frame, const BodyFrame& tracked);
   BodyFrame TrackTurned(const depth::DepthFrame& frame);
   BodyFrame Play(BodyFrame frame);
   int QuarterTurns() const {
