@@ -25,11 +25,13 @@ int OpenAndUnlink(const std::filesystem::path& folder) {
 
 }  // namespace
 
-UnnamedFile::UnnamedFile(const std::filesystem::path& folder) : folder_(folder) {
+UnnamedFile::UnnamedFile(const std::filesystem::path& folder)
+    : name_("a temporary file in " +
+            std::filesystem::absolute(folder).lexically_normal().string()) {
   file_ = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR);
   if (file_ < 0) file_ = OpenAndUnlink(folder);
   if (file_ < 0) {
-    throw InputError(folder.string() + ": no file can be made in it: " + std::strerror(errno));
+    throw InputError(name_ + ": cannot be made: " + std::strerror(errno));
   }
 }
 
@@ -38,11 +40,11 @@ UnnamedFile::~UnnamedFile() {
 }
 
 UnnamedFile::UnnamedFile(UnnamedFile&& other) noexcept
-    : file_(std::exchange(other.file_, -1)), folder_(std::move(other.folder_)) {}
+    : file_(std::exchange(other.file_, -1)), name_(std::move(other.name_)) {}
 
 UnnamedFile& UnnamedFile::operator=(UnnamedFile&& other) noexcept {
   std::swap(file_, other.file_);
-  std::swap(folder_, other.folder_);
+  std::swap(name_, other.name_);
   return *this;
 }
 
@@ -51,7 +53,7 @@ void UnnamedFile::WriteAt(uint64_t place, const void* bytes, size_t size) {
   while (size > 0) {
     const ssize_t written = pwrite(file_, at, size, static_cast<off_t>(place));
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) throw DiskFull(folder_.string() + ": writing failed: is the disk full?");
+    if (written <= 0) throw DiskFull(name_ + ": writing failed: is the disk full?");
     at += written;
     place += static_cast<uint64_t>(written);
     size -= static_cast<size_t>(written);
@@ -63,7 +65,7 @@ void UnnamedFile::ReadAt(uint64_t place, void* bytes, size_t size) const {
   while (size > 0) {
     const ssize_t got = pread(file_, at, size, static_cast<off_t>(place));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) throw InputError(folder_.string() + ": what was written cannot be read again");
+    if (got <= 0) throw InputError(name_ + ": what was written cannot be read again");
     at += got;
     place += static_cast<uint64_t>(got);
     size -= static_cast<size_t>(got);

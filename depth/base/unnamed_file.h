@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace ossa {
 
@@ -23,7 +24,7 @@ class UnnamedFile {
 
  private:
   int file_ = -1;
-  std::filesystem::path folder_;  // for messages
+  std::string name_;  // for messages
 };
 
 }  // namespace ossa
