@@ -45,7 +45,7 @@ struct Place {
 };
 
 // Images of a person in motion; a clip is by an Xtion, others by a Kinect v1.
-std::vector<LabelledFrame> RenderFrame(const Place& place, int poses, int images) {
+std::vector<LabelledFrame> RenderFrames(const Place& place, int poses, int images) {
   tools::FrameOptions options;
   options.width = 320;
   options.height = 240;
@@ -65,7 +65,7 @@ std::vector<LabelledFrame> RenderFrame(const Place& place, int poses, int images
 
 const std::vector<LabelledFrame>& CeilingClip() {
   static const std::vector<LabelledFrame> clip =
-      RenderFrame({tools::View::kCeiling, tools::Background::kRoom, 2, true}, 10, 10);
+      RenderFrames({tools::View::kCeiling, tools::Background::kRoom, 2, true}, 10, 10);
   return clip;
 }
 
@@ -73,7 +73,7 @@ const std::vector<LabelledFrame>& CeilingClip() {
 int CountCeilings(const Place& place, int images) {
   Tracker tracker;
   int ceilings = 0;
-  for (const LabelledFrame& shot : RenderFrame(place, 300, images)) {
+  for (const LabelledFrame& shot : RenderFrames(place, 300, images)) {
     tracker.Reset();
     tracker.Track(shot.depth);
     ceilings += tracker.mount() == Mount::kCeiling ? 1 : 0;
@@ -134,7 +134,7 @@ TEST(Mount, OfATurnedCameraIsThatOfTheTurnedImage) {
   turned.turn = Turn::kQuarter;
   Tracker upright, on_its_side(turned);
   for (const LabelledFrame& shot :
-       RenderFrame({tools::View::kCeiling, tools::Background::kLivedIn, 4, false}, 300, kImages)) {
+       RenderFrames({tools::View::kCeiling, tools::Background::kLivedIn, 4, false}, 300, kImages)) {
     upright.Reset();
     on_its_side.Reset();
     upright.Track(shot.depth);
@@ -150,7 +150,7 @@ TEST(Mount, UnderACeilingFurnitureDoesNotBecomeAPersonByAndBy) {
   under_ceiling.mount = Mount::kCeiling;
   Tracker tracker(under_ceiling);
   const Place shop{tools::View::kCeiling, tools::Background::kLivedIn, 2, true};
-  for (const LabelledFrame& shot : RenderFrame(shop, 240, 24)) {
+  for (const LabelledFrame& shot : RenderFrames(shop, 240, 24)) {
     EXPECT_EQ(tracker.Track(shot.depth).bodies.size(), 1U) << shot.depth.index;
   }
 }

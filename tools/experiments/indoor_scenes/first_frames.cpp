@@ -25,7 +25,7 @@ struct Row {
   int images = 0;                 // that show a person
   int one = 0;                    // exactly one body, at the person
   int nobody = 0;                 // no body at the person
-  int more = 0;                   // bodies too many, at the person or elsewhere
+  int more = 0;                   // extra bodies, at the person or elsewhere
   std::vector<double> error_m{};  // mean over the final joints of each person who was found
 };
 
@@ -133,8 +133,8 @@ std::vector<Table> RunFirstFrames(ExperimentContext& context) {
   });
 
   Table table{.title = "First frames: one person in each image, seen once",
-              .columns = {"background", "what hides", "images", "exactly one body, %", "nobody, %",
-                          "bodies too many, per 100 images", "joints' error, cm, median"},
+              .columns = {"background", "occluder", "images", "exactly one body, %", "nobody, %",
+                          "extra bodies per 100 images", "joints' error, cm, median"},
               .rows = {},
               .note =
                   "Images in which six joints are seen or more. A body is the person's where its "

@@ -7,7 +7,8 @@
 
 namespace ossa::tools {
 
-// One person in any clothes, in an image of their own: what hides them, before what.
+// One person in any clothes, in an image of their own: with which occluder, before which
+// background.
 
 struct FirstFrameKind {
   std::string_view name;  // of the table
@@ -15,8 +16,8 @@ struct FirstFrameKind {
 };
 inline constexpr std::array kFirstFrameKinds = {
     FirstFrameKind{"nothing", Occluders::kNone},
-    FirstFrameKind{"a thing in the hands", Occluders::kHeld},
-    FirstFrameKind{"a thing in front", Occluders::kScene},
+    FirstFrameKind{"an object in the hands", Occluders::kHeld},
+    FirstFrameKind{"an object in front", Occluders::kScene},
     FirstFrameKind{"cloth, boards, paper, boxes held up", Occluders::kHeldUp},
     FirstFrameKind{"a desk or a chair's arms", Occluders::kDesk},
     FirstFrameKind{"a wheelchair", Occluders::kWheelchair},
