@@ -27,6 +27,7 @@ from ._camera import Camera
 from ._evaluation import Comparison, compare, evaluate, learn
 from ._forest import Forest
 from ._frames import Body, Fit, Frame, Mesh, Proposals, Thing
+from ._models import Models
 from ._names import (
     CAMERA_PRESETS,
     JOINTS,
@@ -41,9 +42,12 @@ from ._names import (
 )
 from ._native import InputError
 from ._native import version as __version__
-from ._sequences import Sequence, read_recordings, read_skeletons, reconstruct, write_skeletons
+from ._reconstruct import reconstruct
+from ._sequences import Sequence
+from ._skeleton_files import read_recordings, read_skeletons, write_skeletons
 from ._sources import DepthImage, Source, open
-from ._tracker import Holt, Models, OneEuro, Tracker
+from ._smoothing import Holt, OneEuro
+from ._tracker import Tracker
 
 __all__ = [
     "Body",

@@ -10,7 +10,8 @@ from typing import Any, Optional, Sequence as Several, Union
 
 from . import _check, _native
 from ._names import SKELETON_FORMATS
-from ._sequences import Sequence, write_skeletons
+from ._sequences import Sequence
+from ._skeleton_files import write_skeletons
 from ._sources import PathLike
 
 _LOG = logging.getLogger("ossa")

@@ -1,4 +1,4 @@
-"""The options of single methods, which Tracker and reconstruct have in common."""
+"""Options which Tracker and reconstruct have in common: of single methods, and of the physical character."""
 
 from __future__ import annotations
 
@@ -174,3 +174,20 @@ def check_keeps_bones(method: str, bones: str) -> None:
 
 _NEEDED = 2
 _ROWS: dict[str, Mapping[str, Any]] = {str(row["name"]): row for row in _native.methods}
+
+
+def mechanics_option(
+    physics: Any, control: Any, hinges: Any, joint_limits: Any, scene: Any = None
+) -> dict[str, bool]:
+    """Options of the physical character; refused without physics or a scene."""
+    _check.flag("physics", physics)
+    build = {
+        "motors": _check.one_of("control", control, ("pd", "motor")) == "motor",
+        "hinges": _check.flag("hinges", hinges),
+        "joint_limits": _check.flag("joint_limits", joint_limits),
+    }
+    if any(build.values()) and not physics and scene is None:
+        raise _check.InputError(
+            "control, hinges, joint_limits: expected physics=True or a scene with them"
+        )
+    return build

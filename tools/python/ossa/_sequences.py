@@ -1,29 +1,23 @@
-"""ossa.Sequence: recorded skeletons, their files, and methods over them."""
+"""ossa.Sequence: recorded skeletons."""
 
 from __future__ import annotations
 
-import os
-from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, NamedTuple, Optional, Union
+from typing import Any, Iterable, Iterator, NamedTuple, Optional
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _check, _method_options, _native
-from ._names import METHODS, SKELETON_FORMATS, STATES
-from ._rows import check_rows
-from ._sources import PathLike
+from . import _check
 from ._frames import Frame
-from ._tracker import mechanics_option
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack
+from ._names import STATES
+from ._rows import check_rows
 
 Floats = npt.NDArray[np.float64]
 
 _NOBODY = -1  # id of a row that stands for a frame without bodies
-_UNSAID = -1  # of a state, in the extension
-_WORDS = np.array(("",) + STATES)  # by state + 1
-_COLUMNS = {  # name: shape of a row, what it is where nothing is said
+_NO_STATE = -1  # code of an empty state, in the extension
+_STATE_NAMES = np.array(("",) + STATES)  # by code + 1
+_COLUMNS = {  # name: shape of a row, default value
     "floor": ((4,), np.nan),
     "confidence": ((20,), np.nan),
     "reliability": ((20,), np.nan),
@@ -34,10 +28,10 @@ _COLUMNS = {  # name: shape of a row, what it is where nothing is said
 
 def _states_option(states: Any, rows: int) -> npt.NDArray[np.int8]:
     if states is None:
-        return np.full((rows, 20), _UNSAID, dtype=np.int8)
+        return np.full((rows, 20), _NO_STATE, dtype=np.int8)
     words = _check.array("states", states, (rows, 20), np.str_)
     codes = np.full(words.shape, -2, dtype=np.int8)
-    for code, word in enumerate(_WORDS.tolist()):
+    for code, word in enumerate(_STATE_NAMES.tolist()):
         codes[words == word] = code - 1
     if (codes == -2).any():
         raise _check.refuse("states", ", ".join(STATES) + " or ''", str(words[codes == -2][0]))
@@ -123,7 +117,7 @@ class Sequence:
         for (name, (shape, nothing)), value in zip(_COLUMNS.items(), optional):
             filled = np.full((rows,) + shape, nothing) if value is None else value
             setattr(self, name, _check.array(name, filled, (rows,) + shape, np.float64))
-        self.visible: npt.NDArray[np.int8] = np.full((rows, 20), _UNSAID, dtype=np.int8)
+        self.visible: npt.NDArray[np.int8] = np.full((rows, 20), _NO_STATE, dtype=np.int8)
         self.sensor = _check.text("sensor", sensor)
         self.source = ""
         self.columns = ""
@@ -138,7 +132,7 @@ class Sequence:
     @property
     def states(self) -> npt.NDArray[np.str_]:
         """str [R, 20]: "tracked", "inferred", "not_tracked", or "" where unknown."""
-        words: npt.NDArray[np.str_] = _WORDS[self._codes + 1]
+        words: npt.NDArray[np.str_] = _STATE_NAMES[self._codes + 1]
         return words
 
     @property
@@ -173,7 +167,7 @@ class Sequence:
         except (IndexError, TypeError, ValueError):
             raise _check.refuse("rows", "a slice, a bool [R] or indices of rows", rows) from None
         chosen = np.atleast_1d(chosen)
-        return _from_native({k: v[chosen] if k in _ROWS else v for k, v in _to_native(self).items()})
+        return from_native({k: v[chosen] if k in _ROWS else v for k, v in _to_native(self).items()})
 
     def __repr__(self) -> str:
         return f"<ossa.Sequence of {len(self)} rows, {len(self.people)} people>"
@@ -219,14 +213,15 @@ def _to_native(sequence: Sequence) -> dict[str, Any]:
     return made
 
 
-def _to_use(sequence: Sequence) -> dict[str, Any]:
-    """Arrays for files and methods, which accept less than Sequence does."""
+def to_rows(sequence: Sequence) -> dict[str, Any]:
+    """Columns for files and methods, which accept less than Sequence does (check_rows)."""
     rows = _to_native(sequence)
     check_rows(rows)
     return rows
 
 
-def _from_native(made: dict[str, Any]) -> Sequence:
+def from_native(made: dict[str, Any]) -> Sequence:
+    """A Sequence of the columns that the extension gives."""
     sequence = Sequence(
         made["times"], made["joints"], ids=made["ids"], frames=made["frames"],
         **{name: made[name] for name in _COLUMNS}, sensor=made["sensor"],
@@ -285,227 +280,3 @@ def _sequence_of(frames: Iterable[Frame]) -> Sequence:
         orientations=columns["orientations"],
         floor=np.array([row.floor for row in rows], dtype=np.float64).reshape(-1, 4),
     )
-
-
-def _reading(format: Any, columns: Any, mapping: Any, frame_s: Any) -> dict[str, Any]:
-    return {
-        "format": "" if format is None else _check.one_of("format", format, SKELETON_FORMATS),
-        "columns": ""
-        if columns is None
-        else _check.one_of("columns", columns, ("truth", "observed")),
-        "mapping": _check.optional_path("mapping", mapping),
-        "frame_s": _check.frame_s(frame_s),
-    }
-
-
-def read_skeletons(
-    path: PathLike,
-    format: Optional[str] = None,
-    columns: Optional[str] = None,
-    mapping: Optional[PathLike] = None,
-    frame_s: Optional[float] = None,
-) -> Sequence:
-    """Reads one recording of skeletons: ossa's own, an SDK's, or motion capture, recognised by content.
-
-    Parameters
-    ----------
-    path : path
-        A file, "FILE#truth" or "FILE#observed" of a file that holds both, or "FOLDER#NAME" and
-        "ARCHIVE#NAME" of one recording among several.
-    format : str, optional
-        One of ossa.SKELETON_FORMATS, if the content is ambiguous.
-    columns : "truth" or "observed", optional
-        Which skeleton of files that contain two side by side.
-    mapping : path, optional
-        Mapping file for unknown joint names (docs/files.md).
-    frame_s : float, optional
-        Seconds from frame to frame, for formats without times.
-
-    Returns
-    -------
-    Sequence
-        In camera space and metres, whatever the file's axes and units.
-    """
-    options = _reading(format, columns, mapping, frame_s)
-    return _from_native(_native.read_skeletons(_check.path("path", path), options))
-
-
-def read_recordings(
-    path: PathLike,
-    format: Optional[str] = None,
-    columns: Optional[str] = None,
-    mapping: Optional[PathLike] = None,
-    frame_s: Optional[float] = None,
-) -> dict[str, Sequence]:
-    """All recordings of a folder (recursively), an archive (.tar .tar.gz .zip) or a file.
-
-    Parameters
-    ----------
-    path, format, columns, mapping, frame_s
-        As of read_skeletons.
-
-    Returns
-    -------
-    dict of str to Sequence
-        By path inside the folder or archive; "" of a single file.
-    """
-    options = _reading(format, columns, mapping, frame_s)
-    clips = _native.read_clips(_check.path("path", path), options)
-    return {name: _from_native(made) for name, made in clips}
-
-
-def write_skeletons(
-    sequence: Sequence,
-    path: PathLike,
-    names: Optional[str] = None,
-    *,
-    surface: Optional[PathLike] = None,
-    mesh: Optional[PathLike] = None,
-    shapes: Optional[Mapping[int, npt.ArrayLike]] = None,
-) -> None:
-    """Writes skeletons in the format that the extension names: .jsonl, .csv, .trc, .bvh or .glb.
-
-    TRC and BVH contain one person per file: the first goes to `path`, each other to `path` with _ID
-    before the extension. A .glb (glTF 2.0) shows everybody's body in motion. The file appears under
-    its name only when complete.
-
-    Parameters
-    ----------
-    sequence : Sequence
-        The skeletons to write.
-    path : path
-        The output file.
-    names : "sdk", "cmu", "mixamo" or "vrm", optional
-        Naming scheme of the bones of a .bvh or .glb. Left out: "sdk" for a .bvh, "vrm" for a .glb.
-    surface, mesh : path, optional
-        Of a .glb: the mesh of people, .ossasurface and .ossamesh of `ossa surface`; mesh "none": bones
-        only. Left out: the shipped ones.
-    shapes : dict of int to float64 [10], optional
-        Of a .glb: body shapes, Fit.shape by Body.id, of the same surface. Left out: the mean shape,
-        stretched to the bone lengths.
-    """
-    to = _check.path("path", path)
-    kind = os.path.splitext(to)[1].lower()
-    if names is not None:
-        _check.one_of("names", names, ("sdk", "cmu", "mixamo", "vrm"))
-        if kind not in (".bvh", ".glb") or (names == "sdk" and kind == ".glb"):
-            expected = "a .bvh, or a .glb and names other than sdk"
-            raise _check.refuse(f"names {names!r}", expected, to)
-    how = {
-        "names": names or "",
-        "surface": _check.optional_path("surface", surface),
-        "mesh": _check.optional_path("mesh", mesh),
-    }
-    if shapes is not None and kind != ".glb":
-        raise _check.refuse("shapes", "a .glb", to)
-    _native.write_skeletons(_to_use(sequence), to, how, _shapes_option(shapes))
-
-
-def _shapes_option(shapes: Optional[Mapping[int, npt.ArrayLike]]) -> dict[int, list[float]]:
-    if shapes is None:
-        return {}
-    if not isinstance(shapes, Mapping):
-        raise _check.refuse("shapes", "a dict of float64 [10] by body id", shapes)
-    made = {}
-    for body, values in shapes.items():
-        shape = _check.array("shapes", values, (10,), float)
-        if not np.isfinite(shape).all():
-            raise _check.refuse("shapes", "finite numbers", shape)
-        made[_check.whole("shapes: id", body, 0, 2**31 - 1)] = shape.tolist()
-    return made
-
-
-def _lag_option(lag: Any) -> Optional[int]:
-    if lag is None:
-        return None
-    if isinstance(lag, str):
-        _check.one_of("lag", lag, ("whole",))
-        return -1
-    return _check.whole("lag", lag, 0, 2)
-
-
-@_method_options.takes_method_options
-def reconstruct(
-    sequence: Sequence,
-    method: str = "best",
-    *,
-    database: Optional[PathLike] = None,
-    prior: Optional[PathLike] = None,
-    learned: Optional[PathLike] = None,
-    bones: str = "so-far",
-    physics: bool = False,
-    control: str = "pd",
-    hinges: bool = False,
-    joint_limits: bool = False,
-    cutoff_hz: Optional[float] = None,
-    lag: Union[int, str, None] = None,
-    seed: int = 1,
-    **method_options: Unpack[_method_options.MethodOptions],
-) -> Sequence:
-    """Makes recorded skeletons complete and plausible, as `ossa reconstruct` does.
-
-    Parameters
-    ----------
-    sequence : Sequence
-        Observed skeletons. Absent joints and those not tracked are reconstructed.
-    method : str
-        One of ossa.METHODS, or "butterworth": a low pass over the whole recording, for comparison.
-    database : path, optional
-        .ossadb of `ossa database`. Left out: the shipped one; of best the shipped prior.
-    prior : path, optional
-        .ossaprior of `ossa prior`, for best. Left out: the shipped one.
-    learned : path or "none", optional
-        .ossagp of ossa.learn, which liu-2016, full-gp and exemplar need. Left out: best corrects
-        the known errors of the sequence's sensor.
-    bones : "so-far" or "recording"
-        Bone lengths by the frames so far, or by all frames (constant over the recording). For methods
-        that keep bones.
-    physics : bool
-        Let a physical character follow the result (Shum 2013, sec. VII).
-    control : "pd" or "motor"
-        With physics: the controller of the character.
-    hinges, joint_limits : bool
-        With physics: elbows and knees bend about one axis; joints have human ranges.
-    cutoff_hz : float, optional
-        Cut-off frequency of butterworth, Hz (6).
-    lag : int or "whole", optional
-        Number of later frames used for smoothing, 0 to 2, or "whole": frames before and after. Left
-        out: "whole" with best, else 0.
-    seed : int
-        For methods that draw samples.
-    METHOD_OPTIONS
-
-    Returns
-    -------
-    Sequence
-        All 20 joints in every row with a body, each with its reliability; tracked joints stay
-        "tracked", reconstructed ones are "inferred".
-
-    Raises
-    ------
-    ossa.InputError
-        Naming the argument, or the file that is missing or damaged.
-    """
-    given = dict(locals())
-    _check.one_of("method", method, METHODS + ("butterworth",))
-    _check.one_of("bones", bones, ("so-far", "recording"))
-    files = {name: _check.optional_path(name, given[name]) for name in ("database", "prior", "learned")}
-    _method_options.check_files(method, files)
-    _method_options.check_keeps_bones(method, bones)
-    if cutoff_hz is not None and method != "butterworth":
-        raise _check.refuse("cutoff_hz", "method 'butterworth', which reads it", method)
-    options = {
-        "method": method,
-        "files": files,
-        "bones": bones,
-        "physics": _check.flag("physics", physics),
-        "mechanics": mechanics_option(physics, control, hinges, joint_limits),
-        "cutoff_hz": 6.0 if cutoff_hz is None else _check.number("cutoff_hz", cutoff_hz, 1e-3, 1e3),
-        "lag": _lag_option(lag),
-        "seed": _check.whole("seed", seed, 0, 2**63 - 1),
-        "method_options": _method_options.checked(method, method_options),
-    }
-    return _from_native(_native.reconstruct(_to_use(sequence), options))
-
-
-reconstruct.__doc__ = (reconstruct.__doc__ or "").replace("METHOD_OPTIONS", _method_options.HELP)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-import logging
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -12,71 +10,16 @@ import numpy.typing as npt
 from . import _check, _method_options, _native
 from ._camera import ROTATIONS, Camera, native_camera
 from ._frames import Frame, frame_from
-from ._names import METHODS, MOUNTS, SMOOTHINGS
+from ._models import Models, models_for
+from ._names import METHODS, MOUNTS
+from ._smoothing import Smoothing, smoothing_option
 from ._sources import PathLike, Source
 from ._sources import open as open_source
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-_LOG = logging.getLogger("ossa")
 _STEP_S = 1.0 / 30.0  # between frames without times
-
-
-@dataclasses.dataclass(frozen=True)
-class Holt:
-    """The Kinect SDK's filter of joints (NUI_TRANSFORM_SMOOTH_PARAMETERS) with your own parameters.
-
-    Parameters
-    ----------
-    smoothing : float
-        Weight in [0, 1); 0: no smoothing.
-    correction : float
-        Weight in [0, 1]: how fast the filter follows.
-    prediction : float
-        Frames to predict into the future, 0 or more.
-    jitter_radius_m, max_deviation_radius_m : float
-        Metres, above 0: movements below the first are damped further; no filtered joint is farther
-        from the unfiltered one than the second.
-    """
-
-    smoothing: float = 0.5
-    correction: float = 0.5
-    prediction: float = 0.5
-    jitter_radius_m: float = 0.05
-    max_deviation_radius_m: float = 0.04
-
-
-@dataclasses.dataclass(frozen=True)
-class OneEuro:
-    """The 1 Euro filter of joints (Casiez 2012) with your own parameters.
-
-    Parameters
-    ----------
-    min_cutoff_hz : float
-        Hz, above 0: cut-off frequency for a joint at rest.
-    beta_per_m : float
-        Increase of the cut-off frequency with speed, Hz per m/s, 0 or more.
-    """
-
-    min_cutoff_hz: float = 1.5
-    beta_per_m: float = 4.0
-
-
-Smoothing = Union[str, Holt, OneEuro, None]
-
-
-def _smoothing_option(smoothing: Any) -> Any:
-    if smoothing is None:
-        return None
-    if isinstance(smoothing, (Holt, OneEuro)):
-        name = type(smoothing).__name__
-        values = dataclasses.asdict(smoothing)
-        return {k: _check.number(f"{name}: {k}", v, 0.0, 1e6) for k, v in values.items()}
-    if isinstance(smoothing, str):
-        return _check.one_of("smoothing", smoothing, SMOOTHINGS)
-    expected = f"one of {', '.join(SMOOTHINGS)}, an ossa.Holt or an ossa.OneEuro"
-    raise _check.refuse("smoothing", expected, smoothing)
 
 
 def _bones_option(bones_m: Any) -> dict[int, list[float]]:
@@ -100,85 +43,6 @@ def _person_option(person: Any, fit: bool, max_users: int) -> list[str]:
     if len(person) > max_users:
         raise _check.InputError(f"person: expected at most {max_users} files, as max_users says, found {len(person)}")
     return [_check.path("person", one) for one in person]
-
-
-class Models:
-    """The models of a tracker in memory: read once, shared by any number of trackers, also in several
-    threads at the same time.
-
-    Parameters
-    ----------
-    method : str
-        The method of the trackers, which decides which files are read; one of ossa.METHODS.
-    model : path, optional
-        Forest, .ossa of `ossa train`. Left out: the shipped one.
-    refinement : path or "none", optional
-        Cascaded refinement, .ossarefine of `ossa refine`. Left out: the shipped one if it belongs to
-        forest and method.
-    learned : path or "none", optional
-        .ossagp of ossa.learn, for learned methods. Left out: with best and the shipped forest the
-        shipped one.
-    prior : path or "none", optional
-        .ossaprior of `ossa prior`, for best. Left out: the shipped one.
-    database : path or "none", optional
-        .ossadb of `ossa database`. Left out: the shipped one, for methods that need one.
-    pose_network : path or "none", optional
-        .ossanet of tools/train_pose_network. Left out: the shipped one beside the shipped
-        refinement.
-    surface : path or "none", optional
-        .ossasurface of `ossa surface`, the body that is fitted. Left out: the shipped one. "none":
-        no fit.
-    mesh : path, optional
-        .ossamesh of `ossa surface`, the mesh of that surface: required with your own surface.
-    """
-
-    def __init__(
-        self,
-        method: str = "best",
-        model: Optional[PathLike] = None,
-        refinement: Optional[PathLike] = None,
-        learned: Optional[PathLike] = None,
-        prior: Optional[PathLike] = None,
-        database: Optional[PathLike] = None,
-        pose_network: Optional[PathLike] = None,
-        surface: Optional[PathLike] = None,
-        mesh: Optional[PathLike] = None,
-    ) -> None:
-        _check.one_of("method", method, METHODS)
-        files = {
-            "forest": _check.optional_path("model", model),
-            "refinement": _check.optional_path("refinement", refinement),
-            "learned": _check.optional_path("learned", learned),
-            "prior": _check.optional_path("prior", prior),
-            "database": _check.optional_path("database", database),
-            "pose_network": _check.optional_path("pose_network", pose_network),
-            "surface": _check.optional_path("surface", surface),
-            "mesh": _check.optional_path("mesh", mesh),
-        }
-        if files["surface"] not in ("", "none") and not files["mesh"]:
-            raise _check.InputError(f"surface: expected its skin with it, mesh, found {files['surface']} alone")
-        _method_options.check_files(method, files)
-        self._native = _native.Models(files, method)
-        for warning in self._native.warnings:
-            _LOG.warning("%s", warning)
-
-    @property
-    def method(self) -> str:
-        """The method that these were read for."""
-        return self._native.method
-
-
-def _models_for(method: str, given: Any, files: dict[str, Any]) -> Models:
-    if given is None:
-        return Models(method, **files)
-    if not isinstance(given, Models):
-        raise _check.refuse("models", "an ossa.Models", given)
-    if given.method != method:
-        raise _check.refuse("models", f"those of method {method!r}", given.method)
-    named = [name for name, file in files.items() if file is not None]
-    if named:
-        raise _check.InputError(f"models, {named[0]}: expected one of them, found both")
-    return given
 
 
 class Tracker:
@@ -297,7 +161,7 @@ class Tracker:
         options = {
             "method": method,
             "physics": _check.flag("physics", physics),
-            "mechanics": mechanics_option(physics, control, hinges, joint_limits, scene),
+            "mechanics": _method_options.mechanics_option(physics, control, hinges, joint_limits, scene),
             "method_options": _method_options.checked(method, method_options),
             "seated": _check.flag("seated", seated),
             "near": _check.flag("near", near),
@@ -314,10 +178,10 @@ class Tracker:
             "mount": _check.one_of("mount", mount, MOUNTS),
             "scene": _check.optional_path("scene", scene),
         }
-        chosen = _smoothing_option(smoothing)
+        chosen = smoothing_option(smoothing)
         if chosen is not None:
             options["smoothing"] = chosen
-        self._models = _models_for(method, models, files)
+        self._models = models_for(method, models, files)
         self._native = _native.Tracker(options, self._models._native)
         self._faces = self._native.faces()
         self._mode = "seated" if seated else "standing"
@@ -496,7 +360,7 @@ class Tracker:
 
     @smoothing.setter
     def smoothing(self, smoothing: Smoothing) -> None:
-        self._native.set_smoothing(_smoothing_option(smoothing))
+        self._native.set_smoothing(smoothing_option(smoothing))
         self._smoothing = smoothing
 
     @property
@@ -513,23 +377,6 @@ class Tracker:
         """Resets all state: another recording begins."""
         self._native.reset()
         self._time_s = None
-
-
-def mechanics_option(
-    physics: Any, control: Any, hinges: Any, joint_limits: Any, scene: Any = None
-) -> dict[str, bool]:
-    """Options of the physical character; refused without physics or a scene."""
-    _check.flag("physics", physics)
-    build = {
-        "motors": _check.one_of("control", control, ("pd", "motor")) == "motor",
-        "hinges": _check.flag("hinges", hinges),
-        "joint_limits": _check.flag("joint_limits", joint_limits),
-    }
-    if any(build.values()) and not physics and scene is None:
-        raise _check.InputError(
-            "control, hinges, joint_limits: expected physics=True or a scene with them"
-        )
-    return build
 
 
 Tracker.__doc__ = (Tracker.__doc__ or "").replace("METHOD_OPTIONS", _method_options.HELP)
