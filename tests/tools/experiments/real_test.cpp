@@ -8,6 +8,7 @@
 #include "tests/support/places.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/experiments/real/real_agreement_internal.h"
 #include "tools/experiments/real/real_evaluation_internal.h"
 #include "tools/experiments/real/real_holes_internal.h"
 
@@ -214,6 +215,61 @@ TEST(RawAndFinal, AreAveragedOverTheSameJoints) {
   EXPECT_NEAR(score.raw_cm, 6.0, 1e-9);
   EXPECT_NEAR(score.final_cm, 3.0, 1e-9);
   EXPECT_EQ(ScoreRawAndFinal(set, {}).joints, 0);
+}
+
+RealSet MakeSetOfOneHand(const std::string& peer) {
+  RealSet set{.name = "one", .peer = peer};
+  set.joints = {Joint::kHandLeft};
+  set.joint_names = {"LHand"};
+  set.offsets_from_other_half = false;
+  return set;
+}
+
+// Stills of one joint with the errors of final and peer along x.
+std::vector<StillResult> MakeStillsWithPeer(
+    const std::vector<std::pair<double, double>>& errors_m) {
+  std::vector<StillResult> results;
+  for (const auto& [final_m, peer_m] : errors_m) {
+    StillResult result;
+    result.has_truth = {true};
+    result.errors[RealStage::kFinal] = {Eigen::Vector3d(final_m, 0, 0)};
+    result.errors[RealStage::kPeer] = {Eigen::Vector3d(peer_m, 0, 0)};
+    results.push_back(result);
+  }
+  return results;
+}
+
+TEST(PeerAgreement, CountsStillsWhereBothContradictTheTruthTogether) {
+  const RealSet set = MakeSetOfOneHand("A2J");
+  const auto results =
+      MakeStillsWithPeer({{0, 0}, {0, 0}, {0, 0}, {0, 0.3}, {0.2, 0}, {0.2, 0.22}, {-0.2, 0.2}});
+  const PeerAgreement agreement = CompareWithPeer(set, results, 0);
+  EXPECT_EQ(agreement.joints, 7);
+  EXPECT_EQ(agreement.both, 3);
+  EXPECT_EQ(agreement.only_final, 1);
+  EXPECT_EQ(agreement.only_peer, 1);
+  EXPECT_EQ(agreement.neither, 2);
+  EXPECT_EQ(agreement.agreeing, 1);
+}
+
+TEST(PeerAgreement, IsMeasuredWithoutConstantOffsets) {
+  const RealSet set = MakeSetOfOneHand("A2J");
+  const auto results = MakeStillsWithPeer({{1.0, -1.0}, {1.0, -1.0}, {1.0, -1.0}, {1.2, -0.8}});
+  const PeerAgreement agreement = CompareWithPeer(set, results, 0);
+  EXPECT_EQ(agreement.both, 3);
+  ASSERT_EQ(agreement.neither, 1);
+  EXPECT_NEAR(agreement.to_truth_m[0], 0.2, 1e-9);
+  EXPECT_NEAR(agreement.to_peer_m[0], 0.0, 1e-9);
+}
+
+TEST(PeerAgreement, IsOfEachJointAndOfAllInSetsWithAPeer) {
+  const auto results = MakeStillsWithPeer({{0, 0}, {0, 0}, {0, 0}});
+  EXPECT_TRUE(CompareJointsWithPeer(MakeSetOfOneHand(""), results).empty());
+  const auto joints = CompareJointsWithPeer(MakeSetOfOneHand("A2J"), results);
+  ASSERT_EQ(joints.size(), 2u);
+  EXPECT_EQ(joints[0].first, "LHand");
+  EXPECT_EQ(joints[1].first, "all");
+  EXPECT_EQ(joints[1].second.both, 3);
 }
 
 }  // namespace

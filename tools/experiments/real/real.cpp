@@ -7,8 +7,10 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/statistics.h"
 #include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
+#include "tools/experiments/real/real_agreement_internal.h"
 #include "tools/experiments/real/real_evaluation_internal.h"
 #include "tools/experiments/real/real_holes_internal.h"
 #include "tools/experiments/sdk/method_runs.h"
@@ -176,6 +178,41 @@ void AddJointRows(const RealSet& set, const ScoredSet& scored, Table& table) {
   }
 }
 
+Table AgreementTable() {
+  return {
+      .title = "Final joints and the peer's: stills within 10 cm of the truth, offset removed",
+      .columns = {"set", "joint", "joints", "both", "final only", "peer only", "neither",
+                  "of neither: within 10 cm of each other",
+                  "of neither: final to truth, median, cm", "final to peer, median, cm"},
+      .rows = {},
+      .note =
+          "Where neither is near the truth but both are near each other the truth is in doubt."};
+}
+
+std::string CentimetresCell(const std::vector<double>& values_m) {
+  return values_m.empty() ? "-" : fmt::format("{:.1f}", 100 * ossa::Median(values_m));
+}
+
+void AddRow(const std::string& set, const std::string& joint, const PeerAgreement& a,
+            Table& table) {
+  if (a.joints == 0) return;
+  table.rows.push_back({set, joint, std::to_string(a.joints), std::to_string(a.both),
+                        std::to_string(a.only_final), std::to_string(a.only_peer),
+                        std::to_string(a.neither), std::to_string(a.agreeing),
+                        CentimetresCell(a.to_truth_m), CentimetresCell(a.to_peer_m)});
+}
+
+json AgreementToJson(const std::string& set, const std::string& joint, const PeerAgreement& a) {
+  return {{"name", set},
+          {"joint", joint},
+          {"joints", a.joints},
+          {"both_within_10cm", a.both},
+          {"final_only", a.only_final},
+          {"peer_only", a.only_peer},
+          {"neither", a.neither},
+          {"neither_within_10cm_of_each_other", a.agreeing}};
+}
+
 std::string ByStage(const std::map<RealStage, double>& values) {
   std::string text;
   for (const RealStage stage : kRealStages) {
@@ -295,6 +332,10 @@ class RealReport {
     const auto results = EvaluateStillsOfSets(set, tracker_, context_);
     const ScoredSet scored = ScoreSet(set, results, true);
     AddJointRows(set, scored, joints_);
+    for (const auto& [joint, agreement] : CompareJointsWithPeer(set, results)) {
+      AddRow(set.name, joint, agreement, agreement_);
+      report_["agreement"].push_back(AgreementToJson(set.name, joint, agreement));
+    }
     AddScores(set, scored);
     AddRow(set.name, ScoreRawAndFinal(set, results), raw_and_final_);
     AddHolesRow(scored, "none", holes_);
@@ -316,7 +357,7 @@ class RealReport {
 
   std::vector<Table> Write() const {
     WriteJson(context_, report_);
-    return {stills_, raw_and_final_, holes_, joints_, states_, recordings_};
+    return {stills_, raw_and_final_, holes_, joints_, agreement_, states_, recordings_};
   }
 
  private:
@@ -345,10 +386,12 @@ class RealReport {
   ExperimentContext& context_;
   tracker::Tracker& tracker_;
   Table stills_ = StillsTable(), joints_ = JointsTable(), states_ = StatesTable();
+  Table agreement_ = AgreementTable();
   Table raw_and_final_ = RawAndFinalTable(), holes_ = HolesTable();
   Table recordings_ = VideosTable();
   json report_ = {{"sets", json::array()},
                   {"with_holes", json::array()},
+                  {"agreement", json::array()},
                   {"states", json::array()},
                   {"recordings", json::array()}};
 };

@@ -13,8 +13,6 @@ namespace {
 // mean.
 constexpr size_t kLeastForOffset = 3;
 
-constexpr double kNear_m = 0.1;  // of joints that count as found: by definition
-
 std::optional<Eigen::Vector3d> ErrorAgainst(const RealTruth& truth, const depth::Camera& camera,
                                             const std::optional<Eigen::Vector3d>& estimate_m) {
   if (!estimate_m || estimate_m->z() <= 0) return std::nullopt;
@@ -126,6 +124,16 @@ StillResult EvaluateStill(const RealSet& set, const RealStill& still, tracker::T
   return result;
 }
 
+std::optional<Eigen::Vector3d> ErrorWithoutOffset(const RealSet& set,
+                                                  const std::vector<StillResult>& results,
+                                                  RealStage stage, size_t i, size_t j) {
+  const auto errors = results[i].errors.find(stage);
+  if (errors == results[i].errors.end() || !errors->second[j]) return std::nullopt;
+  const auto offset_m = OffsetFor(set, results, stage, i, j);
+  if (!offset_m) return std::nullopt;
+  return *errors->second[j] - *offset_m;
+}
+
 StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& results) {
   StateScore score;
   for (size_t i = 0; i < results.size(); ++i) {
@@ -136,7 +144,7 @@ StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& resul
       const Eigen::Vector3d error_m =
           WithoutOffset(*errors->second[j], OffsetFor(set, results, RealStage::kFinal, i, j),
                         score.offset_removed);
-      const bool is_near = error_m.norm() <= kNear_m;
+      const bool is_near = error_m.norm() <= kNearTruth_m;
       const bool tracked = results[i].tracked[j];
       ++(tracked ? score.tracked : score.others);
       (tracked ? score.tracked_within_10cm : score.others_within_10cm) += is_near ? 1 : 0;
@@ -192,8 +200,8 @@ StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& result
       ++score.found;
       sum_m += distance_m;
       within_5cm += distance_m <= 0.05;
-      within_10cm += distance_m <= kNear_m;
-      tally.within_10cm += distance_m <= kNear_m;
+      within_10cm += distance_m <= kNearTruth_m;
+      tally.within_10cm += distance_m <= kNearTruth_m;
     }
   }
   const auto share = [](int64_t part, int64_t whole) {

@@ -8,6 +8,9 @@
 
 namespace ossa::tools {
 
+/// A joint this near to the truth is correct, metres: by definition, the 10 cm of the tables.
+inline constexpr double kNearTruth_m = 0.1;
+
 /// The evaluated stages of the tracker, in the order of the data flow.
 enum class RealStage { kRaw, kRefined, kFinal, kPeer };
 inline constexpr std::array kRealStages = {RealStage::kRaw, RealStage::kRefined, RealStage::kFinal};
@@ -33,6 +36,12 @@ struct StillResult {
 /// A still, seen alone: the tracker is reset first. Of several bodies the one whose raw joints are
 /// nearest to the truth is evaluated.
 StillResult EvaluateStill(const RealSet& set, const RealStill& still, tracker::Tracker& tracker);
+
+/// Error of joint `j` of still `i` less the joint's constant offset; empty where the joint is
+/// missing, or too few stills give an offset.
+std::optional<Eigen::Vector3d> ErrorWithoutOffset(const RealSet& set,
+                                                  const std::vector<StillResult>& results,
+                                                  RealStage stage, size_t i, size_t j);
 
 /// Figures of one stage over a set.
 struct StageScore {
