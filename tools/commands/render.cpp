@@ -49,9 +49,8 @@ void DeclareSet(CLI::App& app, Arguments& a) {
   app.add_option("--mocap", a.mocap,
                  "folders of motion capture, or the words 'authored' (upright) and "
                  "'authored-floor' (lying, kneeling, crawling, crouching, arms behind the back, "
-                 "turning fast); repeat for more")
-      ->required()
-      ->allow_extra_args(false);
+                 "turning fast)")
+      ->required();
   AddAmcRateOption(app, a.motion);
   app.add_option("--out", a.out, "folder of the DATASET; an interrupted run is resumed")
       ->required();

@@ -51,6 +51,20 @@ TEST(RenderCommand, RefusesConflictingOptionsAsWrongUsage) {
   }
 }
 
+TEST(RenderCommand, TakesSeveralFoldersAfterOneOptionOrEachAfterItsOwn) {
+  if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
+  const test::TemporaryFolder folder;
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--mocap", "authored", folder / "absent"},
+        std::vector<std::string>{"--mocap", "authored", "--mocap", folder / "absent"}}) {
+    std::vector<std::string> command = {"render", "--frames", "1", "--out", folder / "set"};
+    command.insert(command.end(), words.begin(), words.end());
+    const auto run = RunOssa(command);
+    EXPECT_EQ(run.exit_status, 1);
+    EXPECT_NE(run.err.find(folder / "absent"), std::string::npos) << run.err;
+  }
+}
+
 TEST(RenderCommand, WritesTheCameraOfShrunkImagesToTheManifest) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
