@@ -63,7 +63,8 @@ class Gatherer {
         split_(split),
         collector_(ForestOf(set, context), set.from_above),
         clips_(recon::LoadMocap({mocap})),
-        poses_(MakePoseBank(clips_)) {}
+        poses_(MakePoseBank(clips_)),
+        floor_poses_(MakePoseBank(recon::LoadMocap({kFloorMotion}))) {}
 
   // Some frames of every scenario, and single frames of other rooms and views.
   std::vector<Example> Gather(int performances, uint64_t seed) {
@@ -81,7 +82,9 @@ class Gatherer {
         IndoorScenes(cast, seed + 100 * k, examples[k]);
         BehindSeats(cast, seed + 100 * k + 50, examples[k]);
         for (const View view : {View::kFront, View::kAny, View::kNear})
-          Singles({view, Background::kRoom, seed + k}, examples[k]);
+          Singles({view, Background::kRoom, seed + k}, poses_, examples[k]);
+        for (const View view : {View::kFront, View::kAny})
+          Singles({view, Background::kLivedIn, seed + k}, floor_poses_, examples[k]);
       }
       const std::lock_guard lock(mutex);
       if (context_.progress) context_.progress(++done, performances, "scenes");
@@ -114,7 +117,7 @@ class Gatherer {
     constexpr int kRooms = 8;
     for (int i = 0; i < kRooms; ++i) {
       Singles({View::kCeiling, i % 4 == 0 ? Background::kRoom : Background::kLivedIn, ++seed},
-              examples);
+              poses_, examples);
     }
   }
 
@@ -123,7 +126,8 @@ class Gatherer {
     Background background;
     uint64_t seed;
   };
-  void Singles(const Room& room, std::vector<Example>& examples) {
+  void Singles(const Room& room, const std::vector<recon::RigPose>& poses,
+               std::vector<Example>& examples) {
     constexpr int kFrames = 12;
     FrameOptions options;
     options.width = 320;
@@ -134,7 +138,7 @@ class Gatherer {
     options.background = room.background;
     options.people = room.view == View::kNear ? 1 : 2;
     options.seed = room.seed;
-    const FrameStudio studio(LoadFetchedBody(), poses_, options);
+    const FrameStudio studio(LoadFetchedBody(), poses, options);
     FrameMaker maker(studio);
     for (int f = 0; f < kFrames; ++f) CollectExamples(maker.Make(8 * f), examples);
   }
@@ -152,7 +156,7 @@ class Gatherer {
   Split split_;
   people::FeatureCollector collector_;
   std::vector<recon::MotionClip> clips_;
-  std::vector<recon::RigPose> poses_;
+  std::vector<recon::RigPose> poses_, floor_poses_;
 };
 
 // Kept in the study's cache, one line an example: fitting again with another prior takes seconds.

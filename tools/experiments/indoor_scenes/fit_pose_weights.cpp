@@ -106,6 +106,8 @@ Table FitPoseWeights(ExperimentContext& context) {
               .note = "Weights: pose_weights.inc, to be put into tools/people."};
   AddPassedRows("fitted on", weights, fitted, table);
   AddPassedRows("others", weights, gather(settings.check, Split::kTest, context.seed), table);
+  AddPassedRows("others, on the floor", weights,
+                gather(kFloorMotion, Split::kTest, context.seed + 2), table);
   return table;
 }
 

@@ -11,6 +11,10 @@ namespace ossa::tools {
 
 // Settings and functions of `ossa experiment person-classifier`.
 
+/// Motion of people who lie, kneel or crawl, of whom the given one has few: the level forest's
+/// weights are fitted on it, too. A word for recon::LoadMocap.
+inline constexpr const char* kFloorMotion = "authored-floor";
+
 struct PersonClassifierSettings {
   std::string train, check;  // motion
   int performances = 0;      // on which the forest's weights are fitted
