@@ -277,6 +277,20 @@ void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains
   }
 }
 
+namespace {
+
+void SetMotor(dJointID motor, bool linear, const Vector3d& speed, double bound) {
+  constexpr std::array<int, 3> kVelocity = {dParamVel1, dParamVel2, dParamVel3};
+  constexpr std::array<int, 3> kBound = {dParamFMax1, dParamFMax2, dParamFMax3};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double v = speed[static_cast<Eigen::Index>(axis)];
+    (linear ? dJointSetLMotorParam : dJointSetAMotorParam)(motor, kVelocity[axis], v);
+    (linear ? dJointSetLMotorParam : dJointSetAMotorParam)(motor, kBound[axis], bound);
+  }
+}
+
+}  // namespace
+
 /// The alternative control: an angular servo per ball joint that rotates each bone, relative to its
 /// parent, towards the target's orientation, and a linear servo for the trunk. The servo's speed is
 /// gain x error. gain h = 0.15 is far below the stability limit of 2 and gives the lag of
@@ -288,15 +302,6 @@ void Character::DriveMotors(const ControlTarget& target, const ControlGains& gai
   // and 56 %.
   constexpr double kVelocityShare = 0.7;  // chosen so, between lag and noise
   const double gain = std::min(0.5 * gains.rate_rad_s, 0.5 / h_s);
-  const auto set = [](dJointID motor, bool linear, const Vector3d& speed, double bound) {
-    constexpr std::array<int, 3> kVelocity = {dParamVel1, dParamVel2, dParamVel3};
-    constexpr std::array<int, 3> kBound = {dParamFMax1, dParamFMax2, dParamFMax3};
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double v = speed[static_cast<Eigen::Index>(axis)];
-      (linear ? dJointSetLMotorParam : dJointSetAMotorParam)(motor, kVelocity[axis], v);
-      (linear ? dJointSetLMotorParam : dJointSetAMotorParam)(motor, kBound[axis], bound);
-    }
-  };
   for (size_t bone = 1; bone < kJointCount; ++bone) {
     const size_t parent = BodyParentOf(bone);
     const Quaterniond now = QuaternionToEigen(dBodyGetQuaternion(body_[bone]));
@@ -313,15 +318,15 @@ void Character::DriveMotors(const ControlTarget& target, const ControlGains& gai
                          (bone == 1 ? total_mass_kg_ : 4.0 * segments_[bone].mass_kg);
     Vector3d turning = kVelocityShare * target.angular_velocity_rad_s[bone];
     if (parent != 0) turning -= kVelocityShare * target.angular_velocity_rad_s[parent];
-    set(motor_[bone], false,
-        gain * target.stiffness[bone] * recon::ToRotationVector(wanted * now.conjugate()) + turning,
-        held ? bound : 0.0);
+    const Vector3d correcting =
+        gain * target.stiffness[bone] * recon::ToRotationVector(wanted * now.conjugate());
+    SetMotor(motor_[bone], false, correcting + turning, held ? bound : 0.0);
   }
   const Vector3d middle = 0.5 * (target.position_m[0] + target.position_m[1]);
   const Vector3d velocity = 0.5 * (target.velocity_m_s[0] + target.velocity_m_s[1]);
   const Vector3d error = middle - ToEigen(dBodyGetPosition(body_[1]));
-  set(root_motor_, true, gain * target.stiffness[0] * error + velocity,
-      target.stiffness[0] > 0.0 ? total_mass_kg_ * gains.max_acceleration_m_s2 : 0.0);
+  SetMotor(root_motor_, true, gain * target.stiffness[0] * error + velocity,
+           target.stiffness[0] > 0.0 ? total_mass_kg_ * gains.max_acceleration_m_s2 : 0.0);
 }
 
 }  // namespace ossa::physics

@@ -194,6 +194,33 @@ Eigen::Vector3d Fuse(const TargetMarginal& marginal, const std::vector<Mode>& mo
   return whole.inverse() * pull;
 }
 
+namespace {
+
+// Fills the features of the confidence model. `own`: confidence and weight of each candidate.
+void AddFeatures(const PoseMarginals& marginals, size_t target_index,
+                 const std::vector<std::array<double, 2>>& own,
+                 std::vector<PlaceCandidate>& candidates) {
+  const TargetMarginal& marginal = marginals.target[target_index];
+  const Eigen::Matrix3d inverse =
+      (marginal.covariance_m2 + kModeNoise_m * kModeNoise_m * Eigen::Matrix3d::Identity())
+          .inverse();
+  const double spread_m = std::sqrt(marginal.covariance_m2.trace() / 3.0);
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const Eigen::Vector3d off = candidates[i].position_m - marginal.predicted_m;
+    const double distance = std::min(std::sqrt(off.dot(inverse * off)), kMostDistance);
+    candidates[i].feature = {Logit(own[i][0]),
+                             static_cast<float>(own[i][1]),
+                             static_cast<float>(distance),
+                             static_cast<float>(std::log(spread_m)),
+                             static_cast<float>(marginals.mean_confidence),
+                             static_cast<float>(marginals.mean_support),
+                             static_cast<float>(marginals.margin),
+                             static_cast<float>(marginals.neighbour_support[target_index])};
+  }
+}
+
+}  // namespace
+
 std::vector<PlaceCandidate> Candidates(const ProposalTarget& target, const PoseMarginals& marginals,
                                        size_t target_index, const std::vector<Mode>& modes,
                                        const RefinedPlace* refined) {
@@ -218,22 +245,7 @@ std::vector<PlaceCandidate> Candidates(const ProposalTarget& target, const PoseM
     candidates.push_back({position_m, {}, false, static_cast<int>(m), {}});
     own.push_back({marginal.confidence[m], marginal.weight[m]});
   }
-  const Eigen::Matrix3d inverse =
-      (marginal.covariance_m2 + kModeNoise_m * kModeNoise_m * Eigen::Matrix3d::Identity())
-          .inverse();
-  const double spread_m = std::sqrt(marginal.covariance_m2.trace() / 3.0);
-  for (size_t i = 0; i < candidates.size(); ++i) {
-    const Eigen::Vector3d off = candidates[i].position_m - marginal.predicted_m;
-    const double distance = std::min(std::sqrt(off.dot(inverse * off)), kMostDistance);
-    candidates[i].feature = {Logit(own[i][0]),
-                             static_cast<float>(own[i][1]),
-                             static_cast<float>(distance),
-                             static_cast<float>(std::log(spread_m)),
-                             static_cast<float>(marginals.mean_confidence),
-                             static_cast<float>(marginals.mean_support),
-                             static_cast<float>(marginals.margin),
-                             static_cast<float>(marginals.neighbour_support[target_index])};
-  }
+  AddFeatures(marginals, target_index, own, candidates);
   return candidates;
 }
 

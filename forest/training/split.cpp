@@ -165,11 +165,29 @@ float EntropyTable::Compute(uint32_t n) {
 
 namespace {
 
-// Finds the best threshold bin of one candidate. With n_c pixels of class c and N in all, the
-// entropy of a side times its size is N log N - Σ n_c log n_c.
+// Pixels of one candidate on the left of the threshold and in all, by class. With n_c pixels of
+// class c and N in all, the entropy of a side times its size is N log N - Σ n_c log n_c.
 struct Sweep {
   std::array<uint32_t, 256> left{};
   std::array<uint32_t, 256> total{};
+  uint32_t all = 0;    // N
+  float whole = 0.0F;  // Σ n_c log n_c of both sides together
+
+  // `histogram` begins with the candidate's row of the first class; rows are `stride` apart.
+  void Start(const uint32_t* histogram, size_t labels, size_t stride, int bins,
+             const EntropyTable& entropy) {
+    all = 0;
+    whole = 0.0F;
+    for (size_t l = 0; l < labels; ++l) {
+      const uint32_t* row = histogram + l * stride;
+      uint32_t sum = 0;
+      for (int b = 0; b < bins; ++b) sum += row[b];
+      left[l] = 0;
+      total[l] = sum;
+      all += sum;
+      whole += entropy(sum);
+    }
+  }
 };
 
 }  // namespace
@@ -180,22 +198,13 @@ Split BestSplit(const uint32_t* histogram, size_t labels, size_t first, size_t l
   const size_t width = last - first;
   Sweep sweep;
   for (size_t c = 0; c < width; ++c) {
-    uint32_t all = 0;
-    uint32_t left_all = 0;
-    float whole = 0.0F;
-    float left_sum = 0.0F;  // Σ n_c log n_c on the left side
-    for (size_t l = 0; l < labels; ++l) {
-      const uint32_t* row = histogram + (l * width + c) * kBinStride;
-      uint32_t total = 0;
-      for (int b = 0; b < bins; ++b) total += row[b];
-      sweep.left[l] = 0;
-      sweep.total[l] = total;
-      all += total;
-      whole += entropy(total);
-    }
+    sweep.Start(histogram + c * kBinStride, labels, width * kBinStride, bins, entropy);
+    const uint32_t all = sweep.all;
     if (all == 0) continue;
-    const double parent = static_cast<double>(entropy(all)) - whole;
-    float right_sum = whole;
+    const double parent = static_cast<double>(entropy(all)) - sweep.whole;
+    uint32_t left_all = 0;
+    float left_sum = 0.0F;  // Σ n_c log n_c on the left side
+    float right_sum = sweep.whole;
     for (int b = 0; b + 1 < bins; ++b) {
       uint32_t moved = 0;
       for (size_t l = 0; l < labels; ++l) {

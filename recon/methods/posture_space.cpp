@@ -26,6 +26,33 @@ Eigen::VectorXf PostureSpace::Project(const PostureVector& x) const {
   return basis.transpose().lazyProduct(d);
 }
 
+namespace {
+
+/// The database postures at `neighbours`, a column each.
+Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> Gather(const PostureDatabase& database,
+                                                          std::span<const int> neighbours) {
+  const auto k = static_cast<Eigen::Index>(neighbours.size());
+  Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> columns(kPostureDims, k);
+  for (Eigen::Index n = 0; n < k; ++n) {
+    columns.col(n) = database.postures().col(neighbours[static_cast<size_t>(n)]);
+  }
+  return columns;
+}
+
+/// How many principal axes to keep: at most `dimensions`, and only of a variance that rounding
+/// errors cannot produce. `values`: eigenvalues, ascending.
+Eigen::Index CountAxes(const Eigen::VectorXf& values, int dimensions) {
+  const Eigen::Index most = values.size();
+  const float smallest = std::max(1e-8F, 1e-5F * std::max(values[most - 1], 0.0F));
+  Eigen::Index count = 0;
+  while (count < std::min<Eigen::Index>(dimensions, most) && values[most - 1 - count] > smallest) {
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
 // The covariance D D' and the matrix D'D have the same non-zero eigenvalues, and D maps the
 // eigenvectors of D'D to those of D D'. The smaller matrix is decomposed; K alone decides which.
 PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const int> neighbours,
@@ -33,10 +60,7 @@ PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const i
   const auto k = static_cast<Eigen::Index>(neighbours.size());
   const bool few = k <= kPostureDims;
   PostureSpace space;
-  Eigen::Matrix<float, kPostureDims, Eigen::Dynamic> d(kPostureDims, k);
-  for (Eigen::Index n = 0; n < k; ++n) {
-    d.col(n) = database.postures().col(neighbours[static_cast<size_t>(n)]);
-  }
+  auto d = Gather(database, neighbours);
   space.mean = d.rowwise().mean();
   d.colwise() -= space.mean;
   Eigen::MatrixXf products;
@@ -48,11 +72,7 @@ PostureSpace MakePostureSpace(const PostureDatabase& database, std::span<const i
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> eigen(products);
   const Eigen::VectorXf values = eigen.eigenvalues();  // ascending
   const Eigen::Index most = values.size();
-  Eigen::Index dims = 0;
-  const float smallest = std::max(1e-8F, 1e-5F * std::max(values[most - 1], 0.0F));
-  while (dims < std::min<Eigen::Index>(dimensions, most) && values[most - 1 - dims] > smallest) {
-    ++dims;
-  }
+  const Eigen::Index dims = CountAxes(values, dimensions);
   space.basis.resize(kPostureDims, dims);
   space.deviation.resize(dims);
   for (Eigen::Index c = 0; c < dims; ++c) {

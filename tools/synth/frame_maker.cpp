@@ -222,7 +222,7 @@ depth::SensorModel FrameMaker::State::DrawSensor(int64_t index) const {
   return depth::MakeSensorModel(options.sensors[random.Index(options.sensors.size())]);
 }
 
-// Renders, senses, labels. The image is the crop `box` of the view.
+// Renders, simulates the sensor, labels. The image is the crop `box` of the view.
 LabelledFrame FrameMaker::State::RenderFrame(const ViewSample& view, const std::vector<Prop>& props,
                                              const PixelBox& box, int64_t index,
                                              uint64_t noise_seed) {
@@ -247,19 +247,7 @@ LabelledFrame FrameMaker::State::RenderFrame(const ViewSample& view, const std::
   LabelledFrame frame;
   frame.depth.camera = crop;
   LabelPeople(seen, sensed, studio.model, mesh_of_person, &frame);
-  for (size_t i = 0; i < sensed.source.data.size(); ++i) {
-    if (sensed.source.data[i] < 0 || frame.users.data[i] != 0) continue;
-    const int mesh = seen.mesh.data[static_cast<size_t>(sensed.source.data[i])];
-    const auto at = std::find(prop_mesh.begin(), prop_mesh.end(), mesh);
-    const Prop* prop =
-        at != prop_mesh.end() ? &props[static_cast<size_t>(at - prop_mesh.begin())] : nullptr;
-    if (prop != nullptr && prop->counts_as_other) {
-      frame.parts.data[i] = prop->part;
-      frame.users.data[i] = prop->user;
-    } else if (options.background == Background::kNone) {
-      sensed.depth_mm.data[i] = 0;
-    }
-  }
+  LabelProps(seen, props, prop_mesh, options.background, &sensed, &frame);
   frame.depth.depth_mm = std::move(sensed.depth_mm.data);
   if (view.shrink > 1.0) {
     frame = ShrunkFrame(frame, box.u0, box.v0, view.shrink, ShrunkCamera(view.camera, view.shrink));

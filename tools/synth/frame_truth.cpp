@@ -19,6 +19,24 @@ double WidthOf(const LabelledFrame& frame, const FrameOptions& options) {
 
 }  // namespace
 
+void LabelProps(const depth::RenderedImage& seen, std::span<const Prop> props,
+                std::span<const int> prop_mesh, Background background, depth::SensorImage* sensed,
+                LabelledFrame* frame) {
+  for (size_t i = 0; i < sensed->source.data.size(); ++i) {
+    if (sensed->source.data[i] < 0 || frame->users.data[i] != 0) continue;
+    const int mesh = seen.mesh.data[static_cast<size_t>(sensed->source.data[i])];
+    const auto at = std::find(prop_mesh.begin(), prop_mesh.end(), mesh);
+    const Prop* prop =
+        at != prop_mesh.end() ? &props[static_cast<size_t>(at - prop_mesh.begin())] : nullptr;
+    if (prop != nullptr && prop->counts_as_other) {
+      frame->parts.data[i] = prop->part;
+      frame->users.data[i] = prop->user;
+    } else if (background == Background::kNone) {
+      sensed->depth_mm.data[i] = 0;
+    }
+  }
+}
+
 void AddTruth(std::vector<TruthBody> bodies, const ViewSample& view, int64_t index,
               LabelledFrame* frame) {
   frame->bodies = std::move(bodies);

@@ -80,6 +80,26 @@ std::string PerCent(int part, int whole) {
   return whole == 0 ? "-" : fmt::format("{:.1f}", 100.0 * part / whole);
 }
 
+// Each pair of a background and an occluder, in the order of the tables.
+std::vector<Row> EvaluateRows(ExperimentContext& context, const Cast& cast) {
+  std::vector<Row> rows;
+  for (const FirstFramePlace& where : kFirstFramePlaces) {
+    for (const FirstFrameKind& kind : kFirstFrameKinds)
+      rows.push_back({.kind = kind, .where = where});
+  }
+  std::mutex mutex;
+  size_t done = 0;
+  RunJobs(rows.size(), context.threads, [&](size_t i) {
+    Play(cast, context, rows[i]);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (!context.progress) return;
+    context.progress(static_cast<double>(done), static_cast<double>(rows.size()),
+                     std::string(rows[i].kind.name));
+  });
+  return rows;
+}
+
 struct FirstFrameSettings {
   std::vector<std::string> sources;
   int images = 0;
@@ -114,23 +134,7 @@ std::vector<Table> RunFirstFrames(ExperimentContext& context) {
   const auto poses = MakePoseBank(clips, MakeBankOptions(Poses::kNatural));
   if (poses.empty()) throw InputError(sources.front() + ": expected motion, found no frames");
   const auto model = LoadFetchedBody();
-  const Cast cast{model, poses, how, images};
-
-  std::vector<Row> rows;
-  for (const FirstFramePlace& where : kFirstFramePlaces) {
-    for (const FirstFrameKind& kind : kFirstFrameKinds)
-      rows.push_back({.kind = kind, .where = where});
-  }
-  std::mutex mutex;
-  size_t done = 0;
-  RunJobs(rows.size(), context.threads, [&](size_t i) {
-    Play(cast, context, rows[i]);
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (!context.progress) return;
-    context.progress(static_cast<double>(done), static_cast<double>(rows.size()),
-                     std::string(rows[i].kind.name));
-  });
+  std::vector<Row> rows = EvaluateRows(context, {model, poses, how, images});
 
   Table table{.title = "First frames: one person in each image, seen once",
               .columns = {"background", "occluder", "images", "exactly one body, %", "nobody, %",

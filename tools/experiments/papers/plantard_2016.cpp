@@ -41,9 +41,11 @@ struct Study {
   std::vector<RecordedPair> scenarios;
   std::vector<MethodRun> methods;  // raw, shum-2013, plantard-2016, best, plantard-2016 + physics
   std::vector<std::vector<PairedTracks>> pairs;  // [method][scenario]
-  std::vector<std::vector<ClipMetrics>> clips;   // the same, measured
-  std::vector<std::vector<ClipMetrics>> seen;    // of these the frames in which somebody was seen
+  std::vector<std::vector<ClipMetrics>> clips;   // [method][scenario], errors of `pairs`
+  std::vector<std::vector<ClipMetrics>> seen;    // the same over frames with observed joints only
   std::string note;
+
+  void Add(ExperimentContext& context, MethodRun run);
 };
 
 bool IsWithoutJoints(const recon::SkeletonFrame& frame) {
@@ -53,8 +55,7 @@ bool IsWithoutJoints(const recon::SkeletonFrame& frame) {
   });
 }
 
-// The frames in which the sensor saw a person: results for frames without any joint say little
-// about a method.
+// The frames with observed joints: a method cannot reconstruct frames without any.
 PairedTracks FramesWithPeople(const RecordedPair& scenario, const PairedTracks& pair) {
   std::set<double> unseen_s;
   for (const auto& frame : scenario.observed.frames) {
@@ -74,15 +75,22 @@ int ReadFrameCount(ExperimentContext& context) {
   return context.parameters.Integer("frames", context.full ? 600 : 120, 2);
 }
 
-Study Prepare(ExperimentContext& context) {
-  Study study;
-  const std::string observer = ReadObserver(context.parameters);
-  const int frames = ReadFrameCount(context);
-  const auto motions = TenPerformances(context, frames);
-  study.note = ObserverNote(observer) + motions.note;
+void Study::Add(ExperimentContext& context, MethodRun run) {
+  pairs.push_back(RunOverClips(context, run, scenarios));
+  clips.push_back(MeasureAll(pairs.back()));
+  auto& seen_clips = seen.emplace_back();
+  for (size_t s = 0; s < scenarios.size(); ++s) {
+    seen_clips.push_back(Measure(FramesWithPeople(scenarios[s], pairs.back()[s])));
+  }
+  methods.push_back(std::move(run));
+}
+
+std::vector<RecordedPair> RecordScenarios(ExperimentContext& context, const std::string& observer,
+                                          const std::vector<recon::MotionClip>& clips, int frames) {
+  std::vector<RecordedPair> recorded;
   Studio studio(context, observer);
   for (size_t i = 0; i < kScenarios; ++i) {
-    const recon::MotionClip& clip = motions.clips[i % motions.clips.size()];
+    const recon::MotionClip& clip = clips[i % clips.size()];
     const Scenario scenario = MakeScenario(i);
     StageOptions stage;
     stage.name = fmt::format("scenario {} ({})", i + 1, scenario.text);
@@ -93,17 +101,18 @@ Study Prepare(ExperimentContext& context) {
     if (context.progress) {
       context.progress(static_cast<double>(i), kScenarios, "filming " + stage.name);
     }
-    study.scenarios.push_back(studio.Record(clip, stage));
+    recorded.push_back(studio.Record(clip, stage));
   }
-  const auto add = [&](MethodRun run) {
-    study.pairs.push_back(RunOverClips(context, run, study.scenarios));
-    study.clips.push_back(MeasureAll(study.pairs.back()));
-    auto& seen = study.seen.emplace_back();
-    for (size_t s = 0; s < study.scenarios.size(); ++s) {
-      seen.push_back(Measure(FramesWithPeople(study.scenarios[s], study.pairs.back()[s])));
-    }
-    study.methods.push_back(std::move(run));
-  };
+  return recorded;
+}
+
+Study RunStudy(ExperimentContext& context) {
+  Study study;
+  const std::string observer = ReadObserver(context.parameters);
+  const int frames = ReadFrameCount(context);
+  const auto motions = TenPerformances(context, frames);
+  study.note = ObserverNote(observer) + motions.note;
+  study.scenarios = RecordScenarios(context, observer, motions.clips, frames);
   for (const char* method : {"none", "shum-2013", "plantard-2016", "best"}) {
     MethodRun run{std::string(method) == "none" ? "raw" : method, {}, {}};
     run.options.method = method;
@@ -113,9 +122,9 @@ Study Prepare(ExperimentContext& context) {
       run.options.prior = LoadPrior(context);
       SetObserverCorrection(observer, &run);
     }
-    add(std::move(run));
+    study.Add(context, std::move(run));
   }
-  add(WithPhysics(study.methods[2]));
+  study.Add(context, WithPhysics(study.methods[2]));
   return study;
 }
 
@@ -235,7 +244,7 @@ void ReadPlantard2016Parameters(ExperimentContext& context) {
 }
 
 std::vector<Table> RunPlantard2016(ExperimentContext& context) {
-  const Study study = Prepare(context);
+  const Study study = RunStudy(context);
   std::vector<std::string> labels;
   for (const MethodRun& run : study.methods) labels.push_back(run.label);
   std::vector<size_t> all(kScenarios);

@@ -24,6 +24,29 @@ std::vector<recon::PostureClip> LoadDatabaseClips(ExperimentContext& context) {
   return clips;
 }
 
+MethodRun WithThreshold(const MethodRun& base, const std::vector<recon::PostureClip>& clips,
+                        double threshold_m) {
+  MethodRun run = base;
+  recon::DatabaseOptions options;
+  options.threshold_m = threshold_m;
+  const auto graph =
+      std::make_shared<const recon::PostureDatabase>(recon::PostureDatabase::Build(clips, options));
+  run.options.database = graph;
+  run.database_key += fmt::format(" of clips {} {}", graph->source_postures(), threshold_m);
+  return run;
+}
+
+MethodRun WithEdges(const MethodRun& base, const recon::PostureDatabase& database, int edges) {
+  MethodRun run = base;
+  run.options.database = std::make_shared<recon::PostureDatabase>(database.WithEdges(edges));
+  run.database_key += fmt::format(" edges {}", edges);
+  return run;
+}
+
+double EdgesPerNode(const recon::PostureDatabase& database) {
+  return static_cast<double>(database.edge_count()) / database.size();
+}
+
 }  // namespace
 
 std::string ReadDatabaseMotion(Parameters& parameters) {
@@ -46,25 +69,15 @@ Table MakePlantard2016FigureNine(ExperimentContext& context, const MethodRun& me
   const auto clips = LoadDatabaseClips(context);
   for (const double threshold_m : context.full ? std::vector<double>{0.6, 0.4, 0.3, 0.2, 0.15, 0.1}
                                                : std::vector<double>{0.4, 0.2}) {
-    MethodRun run = base;
-    recon::DatabaseOptions options;
-    options.threshold_m = threshold_m;
-    const auto graph = std::make_shared<const recon::PostureDatabase>(
-        recon::PostureDatabase::Build(clips, options));
-    run.options.database = graph;
-    run.database_key += fmt::format(" of clips {} {}", graph->source_postures(), threshold_m);
+    const MethodRun run = WithThreshold(base, clips, threshold_m);
+    const recon::PostureDatabase& graph = *run.options.database;
     add("filtered nodes (a)",
-        fmt::format("{} (thres_1 = {} m, thres_2 = {:.2f} m, {:.1f} edges a node)", graph->size(),
-                    threshold_m, graph->edge_threshold_m(),
-                    static_cast<double>(graph->edge_count()) / graph->size()),
+        fmt::format("{} (thres_1 = {} m, thres_2 = {:.2f} m, {:.1f} edges a node)", graph.size(),
+                    threshold_m, graph.edge_threshold_m(), EdgesPerNode(graph)),
         run);
   }
   for (const int edges : context.full ? std::vector<int>{1, 2, 4, 8, 16} : std::vector<int>{2, 8}) {
-    MethodRun run = base;
-    run.options.database =
-        std::make_shared<recon::PostureDatabase>(database.postures->WithEdges(edges));
-    run.database_key += fmt::format(" edges {}", edges);
-    add("most edges a node (b)", std::to_string(edges), run);
+    add("most edges a node (b)", std::to_string(edges), WithEdges(base, *database.postures, edges));
   }
   for (const int selected :
        context.full ? std::vector<int>{5, 10, 15, 20, 30, 50} : std::vector<int>{5, 15, 30}) {
@@ -77,8 +90,7 @@ Table MakePlantard2016FigureNine(ExperimentContext& context, const MethodRun& me
       "the paper's optimisation score. Whole database: {} "
       "nodes, {:.1f} edges a node; paper: 2048 nodes, 7.8 edges, K = 30 (no better than 15), 12.28 "
       "ms (shum-2013 14.53 ms).",
-      database.postures->size(),
-      static_cast<double>(database.postures->edge_count()) / database.postures->size());
+      database.postures->size(), EdgesPerNode(*database.postures));
   return table;
 }
 

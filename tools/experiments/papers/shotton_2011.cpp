@@ -247,14 +247,8 @@ void WriteFigures(const fs::path& out, const Curves& accuracy) {
 
 std::string Percent(double share) { return std::isnan(share) ? "-" : Cell(100 * share, 1); }
 
-}  // namespace
-
-void ReadShotton2011Parameters(ExperimentContext& context) { ReadSettings(context); }
-
-std::vector<Table> RunShotton2011(ExperimentContext& context) {
-  const ShottonSettings settings = ReadSettings(context);
-  Laboratory laboratory(context, settings);
-  const int64_t tests = settings.test_images;
+Table ComputeFigureSix(Laboratory& laboratory, const ShottonSettings& settings,
+                       const fs::path& out) {
   Table table;
   table.title = "Figure 6: accuracy against training images and depth";
   table.columns = {"images",          "depth",        "mean class accuracy, %",
@@ -263,14 +257,14 @@ std::vector<Table> RunShotton2011(ExperimentContext& context) {
   for (const int count : settings.images) {
     for (const int depth : settings.depths) {
       const Setting setting{count, depth, settings.trees};
-      const Evaluation e = laboratory.EvaluateSetting(setting, tests);
+      const Evaluation e = laboratory.EvaluateSetting(setting, settings.test_images);
       accuracy[count][depth] = e.mean_class_accuracy;
       table.rows.push_back({fmt::format("{}", setting.images), fmt::format("{}", setting.depth),
                             Percent(e.mean_class_accuracy), Percent(e.pixel_accuracy),
                             Percent(e.map_10cm), Percent(e.map_10cm_visible)});
     }
   }
-  WriteFigures(context.out, accuracy);
+  WriteFigures(out, accuracy);
   table.note =
       "MPFB bodies of test shapes, front views at 320 x 240, structured-light noise; far fewer "
       "images than the paper's.";
@@ -280,19 +274,34 @@ std::vector<Table> RunShotton2011(ExperimentContext& context) {
         "movers): for unseen motion name folders of subjects kept apart as motion and "
         "test_motion.";
   }
-  Table joints;
-  joints.title = "Figure 8: average precision within 10 cm by joint, the shipped model";
-  joints.columns = {"joint", "AP, %", "AP where visible, %"};
-  const Evaluation shipped = laboratory.EvaluateShipped(tests);
+  return table;
+}
+
+Table ComputeFigureEight(Laboratory& laboratory, const ShottonSettings& settings) {
+  Table table;
+  table.title = "Figure 8: average precision within 10 cm by joint, the shipped model";
+  table.columns = {"joint", "AP, %", "AP where visible, %"};
+  const Evaluation shipped = laboratory.EvaluateShipped(settings.test_images);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
-    joints.rows.push_back({std::string(recon::kJointNames[j]), Percent(shipped.ap_10cm.at(j)),
-                           Percent(shipped.ap_10cm_visible.at(j))});
+    table.rows.push_back({std::string(recon::kJointNames[j]), Percent(shipped.ap_10cm.at(j)),
+                          Percent(shipped.ap_10cm_visible.at(j))});
   }
+  table.rows.push_back({"mean", Percent(shipped.map_10cm), Percent(shipped.map_10cm_visible)});
   if (settings.test_motion == "authored") {
-    joints.note = "Authored motions are among those that the shipped model was trained on.";
+    table.note = "Authored motions are among those that the shipped model was trained on.";
   }
-  joints.rows.push_back({"mean", Percent(shipped.map_10cm), Percent(shipped.map_10cm_visible)});
-  return {table, joints};
+  return table;
+}
+
+}  // namespace
+
+void ReadShotton2011Parameters(ExperimentContext& context) { ReadSettings(context); }
+
+std::vector<Table> RunShotton2011(ExperimentContext& context) {
+  const ShottonSettings settings = ReadSettings(context);
+  Laboratory laboratory(context, settings);
+  return {ComputeFigureSix(laboratory, settings, context.out),
+          ComputeFigureEight(laboratory, settings)};
 }
 
 }  // namespace ossa::tools

@@ -12,18 +12,27 @@ Shum2013Settings ReadShum2013Settings(ExperimentContext& context);
 
 /// The recordings and methods of `ossa experiment shum-2013`.
 struct Shum2013Study {
-  /// `occluded`: performances behind furniture and with held things are wanted, too.
+  /// `occluded`: also records the clips behind furniture and with held objects.
   Shum2013Study(ExperimentContext& context, bool occluded);
 
   std::vector<RecordedPair> clean, furniture, held;  // classes (a), (b), (c) of table IV
   MethodRun raw, method_a, method_b, shum, kept, best;
-  MethodRun best_of_truth;  // that expects no observer's errors: table III begins with true joints
+  MethodRun best_of_truth;  // `best` without the observer's correction: table III has true joints
   std::string note;
+
+ private:
+  void RecordClips(ExperimentContext& context, const Shum2013Settings& settings, bool occluded);
+  void SetUpMethods(const ExperimentContext& context, const std::string& observer);
 };
 
 /// The database, and the test data.
 Table TableOne(const ExperimentContext& context);
 Table TableTwo(const Shum2013Study& study);
+
+/// Table III, and lower bounds: the error of the best single posture of the database, and the limbs
+/// with the largest errors of `best`.
+Table TableThree(const ExperimentContext& context, const Shum2013Study& study);
+Table ComputeTableThreeBounds(const ExperimentContext& context, const Shum2013Study& study);
 
 /// Every method before a tilted camera.
 Table TiltTable(const ExperimentContext& context, const Shum2013Study& study);

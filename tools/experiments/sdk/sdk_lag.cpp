@@ -236,6 +236,66 @@ std::vector<std::string> RowOf(const std::string& name, const Left& left, double
           chosen};
 }
 
+/// Errors of every smoothing, and of the smoothing of each family that was chosen on other people.
+struct LagStudy {
+  std::vector<Smoothing> smoothings;               // of all families, one after the other
+  std::vector<Left> fixed;                         // one entry per smoothing, over all people
+  std::vector<Left> nested;                        // one per family, each person's choice
+  std::vector<std::map<std::string, int>> chosen;  // one per family: people by chosen smoothing
+};
+
+LagStudy EvaluateNested(ExperimentContext& context, const std::vector<Fold>& folds,
+                        const std::vector<Family>& families,
+                        const recon::ReconstructorOptions& options, size_t every) {
+  LagStudy study;
+  for (const Family& family : families) {
+    study.smoothings.insert(study.smoothings.end(), family.smoothings.begin(),
+                            family.smoothings.end());
+  }
+  study.fixed.resize(study.smoothings.size());
+  study.nested.resize(families.size());
+  study.chosen.resize(families.size());
+  const auto others = EvaluateOnOthers(context, folds, study.smoothings, options, every);
+  for (const Fold& fold : folds) {
+    const auto lefts = EvaluateAll(context, fold, study.smoothings, options);
+    for (size_t s = 0; s < lefts.size(); ++s) AddLeft(lefts[s], study.fixed[s]);
+    size_t begin = 0;
+    for (size_t k = 0; k < families.size(); ++k) {
+      const size_t end = begin + families[k].smoothings.size();
+      const size_t best = ChooseLag(others.at(fold.name), begin, end);
+      AddLeft(lefts[best], study.nested[k]);
+      ++study.chosen[k][TextOf(study.smoothings[best])];
+      begin = end;
+    }
+  }
+  return study;
+}
+
+/// `full`: with a row for each smoothing, too.
+std::vector<std::vector<std::string>> LagRows(const LagStudy& study,
+                                              const std::vector<Family>& families, bool full) {
+  const std::vector<Left>& fixed = study.fixed;
+  const double of_raw =
+      Average(fixed[0].clips, &ClipMetrics::acceleration_error_cm_per_frame2).value_or(1.0);
+  std::vector<std::vector<std::string>> rows;
+  size_t begin = 0;
+  for (size_t k = 0; k < families.size(); ++k) {
+    if (k < 2) rows.push_back(RowOf(k == 0 ? "raw" : "best, no lag", fixed[begin], of_raw, ""));
+    std::string texts;
+    for (const auto& [text, people] : study.chosen[k]) {
+      texts += fmt::format("{}{}: {}", texts.empty() ? "" : "; ", text, people);
+    }
+    rows.push_back(RowOf(families[k].name, study.nested[k], of_raw, texts));
+    const size_t end = begin + families[k].smoothings.size();
+    for (size_t s = begin + 1; full && s < end; ++s) {
+      const std::string name = families[k].name + " " + TextOf(study.smoothings[s]);
+      rows.push_back(RowOf(name, fixed[s], of_raw, "fixed"));
+    }
+    begin = end;
+  }
+  return rows;
+}
+
 }  // namespace
 
 size_t ReadLagClips(ExperimentContext& context) {
@@ -246,45 +306,12 @@ Table RunLag(ExperimentContext& context, const std::string& data, const std::vec
              const recon::ReconstructorOptions& options) {
   const size_t every = ReadLagClips(context);
   const std::vector<Family> families = Families();
-  std::vector<Smoothing> smoothings;
-  for (const Family& family : families) {
-    smoothings.insert(smoothings.end(), family.smoothings.begin(), family.smoothings.end());
-  }
-  const auto others = EvaluateOnOthers(context, folds, smoothings, options, every);
-  std::vector<Left> all(smoothings.size()), nested(families.size());
-  std::vector<std::map<std::string, int>> chosen(families.size());
-  for (const Fold& fold : folds) {
-    const auto lefts = EvaluateAll(context, fold, smoothings, options);
-    for (size_t s = 0; s < smoothings.size(); ++s) AddLeft(lefts[s], all[s]);
-    size_t begin = 0;
-    for (size_t k = 0; k < families.size(); ++k) {
-      const size_t end = begin + families[k].smoothings.size();
-      const size_t best = ChooseLag(others.at(fold.name), begin, end);
-      AddLeft(lefts[best], nested[k]);
-      ++chosen[k][TextOf(smoothings[best])];
-      begin = end;
-    }
-  }
+  const LagStudy study = EvaluateNested(context, folds, families, options, every);
   Table table;
   table.title = "Frames of lag, widths chosen on the other people, " + data;
   table.columns = {"method",      "mean error",   "eq. 18",    "offset removed",
                    "fast joints", "acceleration", "change, %", "chosen for how many people"};
-  const double of_raw =
-      Average(all[0].clips, &ClipMetrics::acceleration_error_cm_per_frame2).value_or(1.0);
-  size_t begin = 0;
-  for (size_t k = 0; k < families.size(); ++k) {
-    if (k < 2) table.rows.push_back(RowOf(k == 0 ? "raw" : "best, no lag", all[begin], of_raw, ""));
-    std::string texts;
-    for (const auto& [text, people] : chosen[k]) {
-      texts += fmt::format("{}{}: {}", texts.empty() ? "" : "; ", text, people);
-    }
-    table.rows.push_back(RowOf(families[k].name, nested[k], of_raw, texts));
-    for (size_t s = begin + 1; context.full && s < begin + families[k].smoothings.size(); ++s) {
-      table.rows.push_back(
-          RowOf(families[k].name + " " + TextOf(smoothings[s]), all[s], of_raw, "fixed"));
-    }
-    begin += families[k].smoothings.size();
-  }
+  table.rows = LagRows(study, families, context.full);
   table.note = fmt::format(
       "Least acceleration error on every {}th clip of the other people, among widths that raise "
       "eq. 18, offset removed and fast joints by half a per cent at most. Fast joints: offset "

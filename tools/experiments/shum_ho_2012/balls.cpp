@@ -28,6 +28,71 @@ ObjectOptions Ball(double diameter_m, double density_kg_m3) {
   return ball;
 }
 
+double DrawUniform(std::mt19937_64& random) {
+  return std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+}
+
+/// A ball of 8 to 22 cm thrown at the person's trunk.
+ObjectOptions ThrowAtTrunk(const Posture& person, std::mt19937_64& random) {
+  ObjectOptions ball = Ball(0.15 + 0.07 * DrawUniform(random), 400.0);
+  ball.position_m.x() = 1.5 * DrawUniform(random);
+  ball.position_m.y() = 1.2 + 0.3 * DrawUniform(random);
+  ball.position_m.z() = 3.0;
+  Vector3d goal = person[Joint::kSpine];
+  goal.y() += 0.1 + 0.4 * DrawUniform(random);
+  goal.x() += 0.25 * DrawUniform(random);
+  ball.velocity_m_s = ComputeLaunchVelocity(ball.position_m, goal, 0.5);
+  return ball;
+}
+
+/// A light ball of 12 to 20 cm thrown at the person's head.
+ObjectOptions ThrowAtHead(const Posture& person, std::mt19937_64& random) {
+  ObjectOptions ball = Ball(0.16 + 0.04 * DrawUniform(random), 100.0);
+  const Vector3d head = person[Joint::kHead];
+  ball.position_m = head + Vector3d(0.8 * DrawUniform(random), -0.1, 3.2);
+  ball.velocity_m_s = ComputeLaunchVelocity(ball.position_m, head, 0.55);
+  return ball;
+}
+
+/// Largest distance between the same joints of two postures.
+double LargestDistance_m(const Posture& a, const Posture& b) {
+  double largest_m = 0.0;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    largest_m = std::max(largest_m, (a.position_m[j] - b.position_m[j]).norm());
+  }
+  return largest_m;
+}
+
+/// What balls thrown at the head of a standing person hit.
+struct DodgeRun {
+  int head_hits = 0, forearm_hits = 0;  // frames
+  std::vector<Picture> pictures;
+};
+
+/// Adds the numbers that all scenes share to `result`.
+DodgeRun RunDodge(const Posture& pose, bool dodging, uint64_t seed, SceneResult& result) {
+  SceneView view;
+  view.eye_m = {2.0, 1.8, 3.0};
+  view.look_at_m = {0.0, 1.1, 0.4};
+  Stage stage(seed, view);
+  physics::CharacterOptions character;
+  character.dodge = dodging;
+  const int person = stage.AddPerson(pose, character);
+  std::mt19937_64 random(seed);
+  DodgeRun run;
+  for (int f = 0; f < 240; ++f) {
+    if (f % 30 == 15 && f < 210) {
+      stage.world.AddObject(ThrowAtHead(stage.world.StateOf(person).posture, random));
+    }
+    stage.Advance({pose}, dodging ? "dodging on" : "dodging off");
+    run.head_hits += stage.IsStruck(person, {3}) ? 1 : 0;
+    run.forearm_hits += stage.IsStruck(person, {6, 7, 10, 11}) ? 1 : 0;
+  }
+  run.pictures = stage.pictures();
+  if (dodging) AddCommonNumbers(stage, result);
+  return run;
+}
+
 }  // namespace
 
 SceneResult MeetBalls(const Actors& actors, uint64_t seed) {
@@ -41,28 +106,18 @@ SceneResult MeetBalls(const Actors& actors, uint64_t seed) {
   Stage calm(seed, view, false);
   const int twin = calm.AddPerson(motion[0]);
   std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   int hits = 0;
   double largest = 0.0, at_end = 0.0;
   const size_t last_shot = std::min<size_t>(motion.size() - 45, 240);
   for (size_t f = 0; f < motion.size(); ++f) {
     if (f % 6 == 0 && f < last_shot) {
-      ObjectOptions ball = Ball(0.15 + 0.07 * uniform(random), 400.0);
-      ball.position_m = {1.5 * uniform(random), 1.2 + 0.3 * uniform(random), 3.0};
-      const Posture now = stage.world.StateOf(person).posture;
-      const Vector3d goal =
-          now[Joint::kSpine] + Vector3d(0.25 * uniform(random), 0.1 + 0.4 * uniform(random), 0.0);
-      ball.velocity_m_s = ComputeLaunchVelocity(ball.position_m, goal, 0.5);
-      stage.world.AddObject(ball);
+      stage.world.AddObject(ThrowAtTrunk(stage.world.StateOf(person).posture, random));
     }
     stage.Advance({motion[f]}, "balls of random sizes");
     calm.Advance({motion[f]}, "");
     hits += stage.IsStruck(person, {}) ? 1 : 0;
-    at_end = 0.0;
-    const Posture a = stage.world.StateOf(person).posture, b = calm.world.StateOf(twin).posture;
-    for (size_t j = 0; j < recon::kJointCount; ++j) {
-      at_end = std::max(at_end, (a.position_m[j] - b.position_m[j]).norm());
-    }
+    at_end =
+        LargestDistance_m(stage.world.StateOf(person).posture, calm.world.StateOf(twin).posture);
     largest = std::max(largest, at_end);
   }
   SceneResult result;
@@ -79,41 +134,17 @@ SceneResult Dodge(const Actors& actors, uint64_t seed) {
   const std::vector<Posture>& motion = actors.Play("t_pose");
   const Posture pose = motion[motion.size() / 2];
   SceneResult result;
-  std::vector<Picture> pictures;  // first without, then with
-  std::array<int, 2> head_hits{}, forearm_hits{};
-  for (const bool dodging : {false, true}) {
-    SceneView view;
-    view.eye_m = {2.0, 1.8, 3.0};
-    view.look_at_m = {0.0, 1.1, 0.4};
-    Stage stage(seed, view);
-    physics::CharacterOptions character;
-    character.dodge = dodging;
-    const int person = stage.AddPerson(pose, character);
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    for (int f = 0; f < 240; ++f) {
-      if (f % 30 == 15 && f < 210) {
-        ObjectOptions ball = Ball(0.16 + 0.04 * uniform(random), 100.0);
-        const Vector3d head = stage.world.StateOf(person).posture[Joint::kHead];
-        ball.position_m = head + Vector3d(0.8 * uniform(random), -0.1, 3.2);
-        ball.velocity_m_s = ComputeLaunchVelocity(ball.position_m, head, 0.55);
-        stage.world.AddObject(ball);
-      }
-      stage.Advance({pose}, dodging ? "dodging on" : "dodging off");
-      head_hits[dodging ? 1 : 0] += stage.IsStruck(person, {3}) ? 1 : 0;
-      forearm_hits[dodging ? 1 : 0] += stage.IsStruck(person, {6, 7, 10, 11}) ? 1 : 0;
-    }
-    pictures.insert(pictures.end(), stage.pictures().begin(), stage.pictures().end());
-    if (dodging) AddCommonNumbers(stage, result);
-  }
-  result.pictures = std::move(pictures);
+  DodgeRun off = RunDodge(pose, false, seed, result);
+  const DodgeRun on = RunDodge(pose, true, seed, result);
+  result.pictures = std::move(off.pictures);
+  result.pictures.insert(result.pictures.end(), on.pictures.begin(), on.pictures.end());
   result.numbers.insert(result.numbers.begin(),
-                        {{"frames with the head hit, dodging off", std::to_string(head_hits[0]),
-                          "> 0", head_hits[0] > 0},
-                         {"frames with the head hit, dodging on", std::to_string(head_hits[1]), "0",
-                          head_hits[1] == 0},
-                         {"frames with a forearm hit, dodging on", std::to_string(forearm_hits[1]),
-                          "> 0", forearm_hits[1] > 0}});
+                        {{"frames with the head hit, dodging off", std::to_string(off.head_hits),
+                          "> 0", off.head_hits > 0},
+                         {"frames with the head hit, dodging on", std::to_string(on.head_hits), "0",
+                          on.head_hits == 0},
+                         {"frames with a forearm hit, dodging on", std::to_string(on.forearm_hits),
+                          "> 0", on.forearm_hits > 0}});
   return result;
 }
 

@@ -201,6 +201,22 @@ struct Throw {
   }
 };
 
+/// Turns a posture by 180 degrees about the vertical line midway between two people who stand
+/// `apart_m` from each other along z, the first with the hips at `first`.
+Posture FaceBack(Posture posture, const Vector3d& first, double apart_m) {
+  for (auto& p : posture.position_m) {
+    p = Vector3d(2.0 * first.x() - p.x(), p.y(), 2.0 * first.z() + apart_m - p.z());
+  }
+  return posture;
+}
+
+SceneView ViewOfPair(const Vector3d& first, double apart_m) {
+  SceneView view;
+  view.eye_m = {first.x() + 1.1 * apart_m + 1.4, 1.8, first.z() + 0.5 * apart_m + 0.3};
+  view.look_at_m = {first.x(), 0.9, first.z() + 0.5 * apart_m};
+  return view;
+}
+
 }  // namespace
 
 SceneResult SwingAMace(const Actors& actors, uint64_t seed) {
@@ -240,17 +256,8 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
   const Vector3d first = actors.Play("throw")[0][Joint::kHipCenter];
   const Swing swing = FindSwing(actors.Play("throw"));
   const auto motion = AimAt(actors.Play("throw"), swing, first + Vector3d(0.0, 0.0, kApart_m));
-  // Half a turn about the vertical line between them: each faces the other.
-  const auto opposite = [&](Posture posture) {
-    for (auto& p : posture.position_m) {
-      p = Vector3d(2.0 * first.x() - p.x(), p.y(), 2.0 * first.z() + kApart_m - p.z());
-    }
-    return posture;
-  };
-  SceneView view;
-  view.eye_m = {first.x() + 1.1 * kApart_m + 1.4, 1.8, first.z() + 0.5 * kApart_m + 0.3};
-  view.look_at_m = {first.x(), 0.9, first.z() + 0.5 * kApart_m};
-  Stage stage(seed, view);
+  const auto opposite = [&](const Posture& posture) { return FaceBack(posture, first, kApart_m); };
+  Stage stage(seed, ViewOfPair(first, kApart_m));
   stage.AddPerson(motion[0]);
   stage.AddPerson(opposite(motion[0]));
   Throw throws[2];
