@@ -20,7 +20,7 @@ constexpr double kLongestStep_s = 0.1;
 constexpr double kFarthestResidual_m = 0.5;
 
 /// The truth at one time, between two frames (both the same for a single frame). Empty: unknown.
-struct TrueMoment {
+struct TruthSample {
   const SkeletonFrame* before = nullptr;
   const SkeletonFrame* after = nullptr;
   double share = 0.0;  // interpolation weight from `before` to `after`
@@ -29,45 +29,45 @@ struct TrueMoment {
 /// Pairs frames by number. Empty if numbers and times are inconsistent: recordings of two rates
 /// share all numbers, but only the first frames coincide. Clocks may drift if the recordings have
 /// the same frames.
-std::vector<TrueMoment> ByNumber(const SkeletonSequence& observed, const SkeletonSequence& truth) {
+std::vector<TruthSample> ByNumber(const SkeletonSequence& observed, const SkeletonSequence& truth) {
   constexpr double kDrift_s = 0.5;
   std::map<int64_t, const SkeletonFrame*> numbered;
   for (const SkeletonFrame& frame : truth.frames) numbered[frame.frame] = &frame;
-  std::vector<TrueMoment> moments(observed.frames.size());
+  std::vector<TruthSample> samples(observed.frames.size());
   size_t same = 0, drifted = 0;
-  for (size_t f = 0; f < moments.size(); ++f) {
+  for (size_t f = 0; f < samples.size(); ++f) {
     const auto found = numbered.find(observed.frames[f].frame);
     if (found == numbered.end()) continue;
     const double apart_s = std::abs(found->second->time_s - observed.frames[f].time_s);
     same += apart_s <= kSameTime_s ? 1 : 0;
     drifted += apart_s < kDrift_s ? 1 : 0;
-    if (apart_s < kDrift_s) moments[f] = {found->second, found->second, 0.0};
+    if (apart_s < kDrift_s) samples[f] = {found->second, found->second, 0.0};
   }
-  const size_t all = moments.size();
+  const size_t all = samples.size();
   const bool as_many = numbered.size() == all && truth.frames.size() == all;
-  if (10 * same >= 9 * all || (as_many && drifted == all)) return moments;
+  if (10 * same >= 9 * all || (as_many && drifted == all)) return samples;
   return {};
 }
 
-std::vector<TrueMoment> ByTime(const SkeletonSequence& observed, const SkeletonSequence& truth) {
+std::vector<TruthSample> ByTime(const SkeletonSequence& observed, const SkeletonSequence& truth) {
   std::map<double, const SkeletonFrame*> timed;
   for (const SkeletonFrame& frame : truth.frames) timed[frame.time_s] = &frame;
-  std::vector<TrueMoment> moments;
+  std::vector<TruthSample> samples;
   for (const SkeletonFrame& frame : observed.frames) {
-    TrueMoment& moment = moments.emplace_back();
+    TruthSample& sample = samples.emplace_back();
     const auto after = timed.lower_bound(frame.time_s);
     if (after != timed.end() && after->first <= frame.time_s + kSameTime_s)
-      moment = {after->second, after->second, 0.0};
-    if (after == timed.begin() || (moment.after && after->first == frame.time_s)) continue;
+      sample = {after->second, after->second, 0.0};
+    if (after == timed.begin() || (sample.after && after->first == frame.time_s)) continue;
     const auto before = std::prev(after);
     if (after != timed.end() && after->first - before->first <= kLongestStep_s) {
-      moment = {before->second, after->second,
+      sample = {before->second, after->second,
                 (frame.time_s - before->first) / (after->first - before->first)};
     } else if (before->first >= frame.time_s - kSameTime_s) {
-      moment = {before->second, before->second, 0.0};
+      sample = {before->second, before->second, 0.0};
     }
   }
-  return moments;
+  return samples;
 }
 
 const JointRecord* JointOf(const SkeletonFrame& frame, int id, size_t joint) {
@@ -80,24 +80,24 @@ const JointRecord* JointOf(const SkeletonFrame& frame, int id, size_t joint) {
   return HasPlace(record) ? &record : nullptr;
 }
 
-std::optional<Eigen::Vector3d> TrueJoint(const TrueMoment& moment, int id, size_t joint) {
-  if (moment.before == nullptr) return std::nullopt;
-  const JointRecord* before = JointOf(*moment.before, id, joint);
-  const JointRecord* after = JointOf(*moment.after, id, joint);
+std::optional<Eigen::Vector3d> TrueJoint(const TruthSample& sample, int id, size_t joint) {
+  if (sample.before == nullptr) return std::nullopt;
+  const JointRecord* before = JointOf(*sample.before, id, joint);
+  const JointRecord* after = JointOf(*sample.after, id, joint);
   if (before == nullptr || after == nullptr) return std::nullopt;
   return Eigen::Vector3d(before->position_m +
-                         moment.share * (after->position_m - before->position_m));
+                         sample.share * (after->position_m - before->position_m));
 }
 
 /// The pair of observation and truth of a body in one frame; none if too few joints are known.
-std::optional<PosturePair> MakePair(const PreparedPosture& prepared, const TrueMoment& moment,
+std::optional<PosturePair> MakePair(const PreparedPosture& prepared, const TruthSample& sample,
                                     int id) {
   constexpr double kFewest = 4.0;  // joints, weights of 1
   Posture truth_in_camera = prepared.in_camera;
   PosturePair pair;
   double known = 0.0;
   for (size_t i = 0; i < kJointCount; ++i) {
-    const auto p = prepared.present[i] > 0.0 ? TrueJoint(moment, id, i) : std::nullopt;
+    const auto p = prepared.present[i] > 0.0 ? TrueJoint(sample, id, i) : std::nullopt;
     if (!p) continue;
     const double off_m = (*p - prepared.in_camera.position_m[i]).norm();
     pair.worst_m = std::max(pair.worst_m, off_m);
@@ -128,16 +128,16 @@ struct Observed {
 
 size_t AddPairs(const SkeletonSequence& observed, const SkeletonSequence& truth,
                 std::vector<PosturePair>& pairs, int group) {
-  std::vector<TrueMoment> moments = ByNumber(observed, truth);
-  if (moments.empty()) moments = ByTime(observed, truth);
+  std::vector<TruthSample> samples = ByNumber(observed, truth);
+  if (samples.empty()) samples = ByTime(observed, truth);
   std::map<int, Observed> people;
-  for (size_t f = 0; f < moments.size(); ++f) {
+  for (size_t f = 0; f < samples.size(); ++f) {
     const double time_s = observed.frames[f].time_s;
     for (const BodyRecord& body : observed.frames[f].bodies) {
       Observed& one = people[body.id];
       const PreparedPosture prepared =
           one.person.Prepare({ToTrackedPosture(body), time_s, nullptr});
-      auto pair = MakePair(prepared, moments[f], body.id);
+      auto pair = MakePair(prepared, samples[f], body.id);
       if (!pair) continue;
       pair->group = group;
       pair->time_s = time_s;

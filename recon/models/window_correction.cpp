@@ -138,7 +138,7 @@ void FeatureHistory::Add(double time_s, Eigen::VectorXf feature) {
       !past_.empty() && time_s < past_.back().time_s - FrameSteps::kJitter_s;
   if (is_another_recording) past_.clear();
   past_.push_back({time_s, std::move(feature)});
-  const auto old = [&](const Moment& moment) { return moment.time_s < time_s - kKept_s; };
+  const auto old = [&](const Sample& sample) { return sample.time_s < time_s - kKept_s; };
   past_.erase(past_.begin(), std::find_if_not(past_.begin(), past_.end(), old));
 }
 
@@ -149,11 +149,11 @@ Eigen::VectorXf FeatureHistory::WindowAt(double time_s, const Eigen::VectorXf& n
     const double wanted_s = time_s - lags_s[k];
     const Eigen::VectorXf* nearest = &now;
     double apart_s = lags_s[k];
-    for (const Moment& moment : past_) {
-      const double of_moment_s = std::abs(moment.time_s - wanted_s);
-      if (moment.time_s >= time_s || of_moment_s >= apart_s) continue;
-      apart_s = of_moment_s;
-      nearest = &moment.feature;
+    for (const Sample& sample : past_) {
+      const double of_sample_s = std::abs(sample.time_s - wanted_s);
+      if (sample.time_s >= time_s || of_sample_s >= apart_s) continue;
+      apart_s = of_sample_s;
+      nearest = &sample.feature;
     }
     window.segment(static_cast<Eigen::Index>(k) * now.size(), now.size()) = *nearest;
   }

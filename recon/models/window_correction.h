@@ -63,11 +63,11 @@ class FeatureHistory {
   void Clear() { past_.clear(); }
 
  private:
-  struct Moment {
+  struct Sample {
     double time_s = 0.0;
     Eigen::VectorXf feature;
   };
-  std::vector<Moment> past_;  // the newest last
+  std::vector<Sample> past_;  // the newest last
 };
 
 }  // namespace ossa::recon

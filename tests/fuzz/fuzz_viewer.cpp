@@ -29,7 +29,7 @@ struct Recording {
       recon::SkeletonFrame frame;
       frame.frame = f;
       frame.time_s = f / 30.0;
-      shared.store.Add(viewer::MakeMoment(frame));
+      shared.store.Add(viewer::MakeDisplayFrame(frame));
     }
     shared.store.Complete();
   }

@@ -72,7 +72,7 @@ class Page:
     def __init__(self, driver, url):
         self.driver = driver
         driver.get(url)
-        self.wait("return Boolean(window.page && page.moment)", "a first frame")
+        self.wait("return Boolean(window.page && page.frame)", "a first frame")
 
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)
@@ -97,7 +97,7 @@ class Page:
         self.driver.switch_to.active_element.send_keys(key)
 
     def wait_for_frame(self, number):
-        self.wait(f"return page.moment.number === {number} && page.player.shown === {number}", f"frame {number}")
+        self.wait(f"return page.frame.number === {number} && page.player.shown === {number}", f"frame {number}")
 
     def box(self, selector):
         """left, top, width, height on the page, CSS pixels."""

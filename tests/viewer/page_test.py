@@ -80,10 +80,10 @@ class RecordingPage(InBrowser):
             page.wait_for_frame(frame)
             # Picture and skeletons are of that frame: the files say which those are.
             truth = json.loads((CLIP / "truth.jsonl").read_text().splitlines()[frame])
-            shown = page.run("return page.overlays[0].at(page.moment.layers.final.time_s).bodies.get(1).Head.p")
+            shown = page.run("return page.overlays[0].at(page.frame.layers.final.time_s).bodies.get(1).Head.p")
             self.assertEqual(shown, truth["bodies"][0]["joints"]["Head"]["p"])
             depth = numpy.array(browser.Image.open(sorted((CLIP / "depth").iterdir())[frame]))
-            self.assertEqual(page.run("return [...page.moment.depth.slice(0, 60000)]"),
+            self.assertEqual(page.run("return [...page.frame.depth.slice(0, 60000)]"),
                              list(depth.astype("<u2").tobytes()[:60000]))
 
     def test_joints_are_drawn_at_their_projection(self):
@@ -93,7 +93,7 @@ class RecordingPage(InBrowser):
         page.click("[data-view=camera]")
         page.click("[data-layer=cloud]")  # nothing else has a person's colour
         self.assertGreater(share_of_other_colours(page.picture_of("#stage")), 0.01)
-        camera, joints = page.run("return [page.moment.camera, page.moment.layers.final.bodies[0].joints]")
+        camera, joints = page.run("return [page.frame.camera, page.frame.layers.final.bodies[0].joints]")
         picture = page.picture_of("#stage")
         height, width = picture.shape[:2]
         scale = min(width / camera["width"], height / camera["height"])
@@ -130,7 +130,7 @@ class RecordingPage(InBrowser):
         page.wait_for_frame(12)
         page.wait("return page.scene.meshes.triangles && page.scene.meshes.triangles.count === 3 * 4000", "its triangles")
         camera, (mesh,), mask = page.run(
-            "const m = page.moment; return [m.camera, m.meshes.map(one => ({id: one.id, corners: [...one.corners]})), [...m.users]]")
+            "const m = page.frame; return [m.camera, m.meshes.map(one => ({id: one.id, corners: [...one.corners]})), [...m.users]]")
         corners = numpy.array(mesh["corners"]).reshape(-1, 3)
         u = numpy.round(camera["cx"] - camera["fx"] * corners[:, 0] / corners[:, 2]).astype(int)
         v = numpy.round(camera["cy"] - camera["fy"] * corners[:, 1] / corners[:, 2]).astype(int)
@@ -172,7 +172,7 @@ class RecordingPage(InBrowser):
         page.press(",")
         page.wait_for_frame(0)
         page.press(" ")
-        page.wait("return page.moment.number > 3", "it plays")
+        page.wait("return page.frame.number > 3", "it plays")
         page.press(" ")
         self.assertFalse(page.run("return page.player.playing"))
         page.press("?")
@@ -269,14 +269,14 @@ class CameraPage(InBrowser):
     def test_camera_is_shown_live_and_recorded(self):
         page = self.open(self.serve("view", CAMERA, "--record-to", WORK))
         self.assertFalse(page.run("return page.state.kept"))
-        first = page.run("return page.moment.number")
-        page.wait(f"return page.moment.number > {first + 3}", "frames go on")
+        first = page.run("return page.frame.number")
+        page.wait(f"return page.frame.number > {first + 3}", "frames go on")
         self.assertGreater(share_of_other_colours(page.picture_of("#stage")), 0.1)
         self.assertRegex(page.run("return document.getElementById('flow').innerText"), r"dropped, latency \d+ ms")
         page.click("#record")
         page.wait("return page.state.recording.said", "it records")
-        before = page.run("return page.moment.number")
-        page.wait(f"return page.moment.number > {before + 3}", "frames go on")
+        before = page.run("return page.frame.number")
+        page.wait(f"return page.frame.number > {before + 3}", "frames go on")
         page.click("#record")
         page.wait("return !page.state.recording.on", "it records no more")
         name = page.run("return page.state.recording.said")
@@ -287,9 +287,9 @@ class CameraPage(InBrowser):
         self.addCleanup(self.driver.set_window_size, *browser.WINDOW)
         page = self.open(self.serve("view", CAMERA))
         self.assertLessEqual(page.run("return document.documentElement.scrollWidth - innerWidth"), 0, "nothing sticks out")
-        self.assertEqual(page.run("return page.moment.step"), 2, "fewer pixels")
+        self.assertEqual(page.run("return page.frame.step"), 2, "fewer pixels")
         self.assertEqual(page.run("return document.getElementById('name').innerText"), "one", "its name alone")
-        page.wait("return page.moment.layers.final.bodies.length > 0 && page.moment.parts.some(part => part > 0)",
+        page.wait("return page.frame.layers.final.bodies.length > 0 && page.frame.parts.some(part => part > 0)",
                   "somebody, and the parts")
         page.save("viewer_phone.png", PICTURES)
 
@@ -308,8 +308,8 @@ class CameraPage(InBrowser):
             };
             page.player.connection.socket.close();""")
         page.wait("return document.getElementById('status').textContent === 'no connection'", "the lost connection is shown")
-        lost = page.run("return page.moment.number")
-        page.wait(f"return page.moment.number > {lost}", "it goes on")
+        lost = page.run("return page.frame.number")
+        page.wait(f"return page.frame.number > {lost}", "it goes on")
 
 
 class BrowserWithoutLocalStorage(InBrowser):
@@ -328,7 +328,7 @@ class PhysicsPage(InBrowser):
         page.click("#play")
         page.run("page.jump(12)")
         page.wait_for_frame(12)
-        solids, joints = page.run("return [page.moment.solids, page.moment.layers.final.bodies[0].joints]")
+        solids, joints = page.run("return [page.frame.solids, page.frame.layers.final.bodies[0].joints]")
         self.assertEqual([solid["shape"] for solid in solids], ["capsule"] * 19)
         thigh = numpy.array(joints["HipLeft"]["p"]) / 2 + numpy.array(joints["KneeLeft"]["p"]) / 2
         gap_m = min(numpy.abs(numpy.array(solid["at"]) - thigh).max() for solid in solids)
@@ -368,7 +368,7 @@ class OtherMachines(InBrowser):
         with self.assertRaises(urllib.error.HTTPError) as refused:
             urllib.request.urlopen(command.url.split("?")[0])
         self.assertEqual(refused.exception.code, 401)
-        page.wait("return page.moment", "a frame, by the cookie")
+        page.wait("return page.frame", "a frame, by the cookie")
 
 
 if __name__ == "__main__":

@@ -286,17 +286,17 @@ tools::RenderJob MakeJob(const Arguments& a, const std::filesystem::path& out,
   return job;
 }
 
-void RenderSet(const tools::FrameStudio& studio, const Arguments& a,
+void RenderSet(const tools::FrameInputs& inputs, const Arguments& a,
                const std::filesystem::path& out, tools::Ranks& ranks) {
   tools::RenderJob job = MakeJob(a, out, ranks);
   Progress progress("render", a.quiet || ranks.rank() != 0);
   const auto share = static_cast<double>(a.frames) / ranks.size();
   job.progress = [&](int64_t done) { progress.Update(static_cast<double>(done), share); };
-  const bool finished = tools::RenderShare(studio, job) == tools::RenderEnd::kDone;
+  const bool finished = tools::RenderShare(inputs, job) == tools::RenderEnd::kDone;
   if (!ranks.All(finished)) {
     throw InputError(a.out + ": interrupted; the same command goes on from here");
   }
-  if (ranks.rank() == 0) tools::FinishDataset(studio, job);
+  if (ranks.rank() == 0) tools::FinishDataset(inputs, job);
 }
 
 std::string CameraName(int camera) { return fmt::format("camera_{}", camera); }
@@ -315,16 +315,16 @@ void CheckFolderOfCameras(const Arguments& a) {
 }
 
 // Renders one data set after the other; extrinsics.json is written last.
-void RenderAround(tools::FrameStudio& studio, const Arguments& a, tools::Ranks& ranks) {
+void RenderAround(tools::FrameInputs& inputs, const Arguments& a, tools::Ranks& ranks) {
   const std::filesystem::path out(a.out);
   if (ranks.rank() == 0) CheckFolderOfCameras(a);
   for (int k = 0; k < a.cameras; ++k) {
-    studio.options.camera = k;
-    RenderSet(studio, a, out / CameraName(k), ranks);
+    inputs.options.camera = k;
+    RenderSet(inputs, a, out / CameraName(k), ranks);
   }
   if (ranks.rank() != 0) return;
   recon::Extrinsics cameras;
-  for (const Eigen::Isometry3d& from_camera_0 : tools::FrameMaker(studio).FromCamera0()) {
+  for (const Eigen::Isometry3d& from_camera_0 : tools::FrameMaker(inputs).FromCamera0()) {
     cameras.push_back(
         {.name = CameraName(static_cast<int>(cameras.size())), .from_camera_0 = from_camera_0});
   }
@@ -351,14 +351,14 @@ int Render(int argc, char** argv) {
   auto poses =
       a.sequence ? tools::SequencePoses(clips, a.frames, a.seed) : tools::MakePoseBank(clips, bank);
   if (poses.empty()) throw InputError(a.mocap.front() + ": expected motion, found no frames");
-  tools::FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()), std::move(poses), options);
+  tools::FrameInputs inputs(recon::BodyModel::Load(recon::BodyFolder()), std::move(poses), options);
   // MPI ranks share the work; only the first locks the folder.
   std::optional<FolderLock> lock;
   if (ranks.rank() == 0) lock.emplace(a.out);
   if (a.cameras > 1) {
-    RenderAround(studio, a, ranks);
+    RenderAround(inputs, a, ranks);
   } else {
-    RenderSet(studio, a, a.out, ranks);
+    RenderSet(inputs, a, a.out, ranks);
   }
   return 0;
 }

@@ -79,12 +79,12 @@ struct Destinations {
     trace.Write(bodies);
     pictures.Take(waiting.front(), bodies);
     if (viewer != nullptr) {
-      viewer::Moment moment = viewer::MakeMoment(waiting.front(), bodies);
-      moment.dropped = run.dropped;
-      moment.is_upright = tracker.quarter_turns() == 0;
-      moment.latency_ms = bodies.ms.total;
-      moment.solids = viewer::SolidsOf(bodies, options.mechanics.follows());
-      viewer->Show(std::move(moment));
+      viewer::DisplayFrame display = viewer::MakeDisplayFrame(waiting.front(), bodies);
+      display.dropped = run.dropped;
+      display.is_upright = tracker.quarter_turns() == 0;
+      display.latency_ms = bodies.ms.total;
+      display.solids = viewer::SolidsOf(bodies, options.mechanics.follows());
+      viewer->Show(std::move(display));
     }
     waiting.pop_front();
   }

@@ -128,7 +128,7 @@ void ShowSkeletons(const ViewOptions& options) {
   for (const recon::SkeletonFrame& frame : sequence.frames) {
     if (Interrupted()) return;
     if (options.once) std::this_thread::sleep_until(clock.DueAt(frame.time_s));
-    viewer.Show(viewer::MakeMoment(frame));
+    viewer.Show(viewer::MakeDisplayFrame(frame));
   }
   viewer.Complete();
   if (options.once) return ShowLastFrame();
@@ -192,12 +192,12 @@ class PageTracker {
     }
     tracker::BodyFrame bodies = tracker_.Track(read.frame);
     std::vector<viewer::Solid> solids = viewer::SolidsOf(bodies, options_.mechanics.follows());
-    viewer::Moment moment = viewer::MakeMoment(read.frame, std::move(bodies));
-    moment.solids = std::move(solids);
-    moment.dropped = dropped_;
-    moment.is_upright = tracker_.quarter_turns() == 0;
-    moment.latency_ms = std::chrono::duration<double, std::milli>(Clock::now() - arrived).count();
-    viewer_->Show(std::move(moment));
+    viewer::DisplayFrame display = viewer::MakeDisplayFrame(read.frame, std::move(bodies));
+    display.solids = std::move(solids);
+    display.dropped = dropped_;
+    display.is_upright = tracker_.quarter_turns() == 0;
+    display.latency_ms = std::chrono::duration<double, std::milli>(Clock::now() - arrived).count();
+    viewer_->Show(std::move(display));
     ShowProgress();
   }
 

@@ -4,16 +4,16 @@
 #include <cmath>
 
 #include "depth/render/renderer.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/accessories.h"
+#include "tools/synth/clothed_body.h"
+#include "tools/synth/distractors.h"
 #include "tools/synth/draw_scene_internal.h"
 #include "tools/synth/frame_truth_internal.h"
+#include "tools/synth/interaction.h"
 #include "tools/synth/materials.h"
-#include "tools/synth/nobodies.h"
 #include "tools/synth/pixel_box_internal.h"
 #include "tools/synth/sample_person.h"
 #include "tools/synth/shrunk_frame.h"
-#include "tools/synth/staging.h"
-#include "tools/synth/worn.h"
 
 namespace ossa::tools {
 namespace {
@@ -41,34 +41,34 @@ Random SeedStream(uint64_t seed, Stream purpose, int64_t index, int extra) {
   return Random(purposeful, static_cast<uint64_t>(index) * 64 + static_cast<uint64_t>(extra));
 }
 
-struct Dressed {
+struct ClothedPerson {
   int64_t key = -1;
   recon::ShapedBody body;
   recon::Clothing clothing;
-  Worn worn;
+  Accessories accessories;
   std::vector<Eigen::Vector3f> rest_m;
 };
 
 }  // namespace
 
 struct FrameMaker::State {
-  const FrameStudio& studio;
+  const FrameInputs& inputs;
   const FrameOptions& options;
   depth::Renderer renderer;
-  std::vector<Dressed> wearers;  // one a person
+  std::vector<ClothedPerson> clothed_people;  // one a person
   std::vector<std::vector<Eigen::Vector3f>> posed_m;
   std::vector<int> mesh_of_person;
   std::vector<recon::Posture> path_in_world;  // of a sequence: the first person's, all frames
 
-  explicit State(const FrameStudio& shared) : studio(shared), options(shared.options) {
+  explicit State(const FrameInputs& shared) : inputs(shared), options(shared.options) {
     const auto people = static_cast<size_t>(options.people);
-    wearers.resize(people);
-    posed_m.assign(people, std::vector<Eigen::Vector3f>(studio.model.vertex_count()));
+    clothed_people.resize(people);
+    posed_m.assign(people, std::vector<Eigen::Vector3f>(inputs.model.vertex_count()));
     for (size_t person = 0; person < people; ++person) {
       // The tree of the renderer is built of the rest pose and only refitted afterwards.
       Dress(0, static_cast<int>(person));
       mesh_of_person.push_back(
-          renderer.AddMesh({wearers[person].rest_m, studio.model.triangles()}, true));
+          renderer.AddMesh({clothed_people[person].rest_m, inputs.model.triangles()}, true));
     }
   }
 
@@ -80,17 +80,18 @@ struct FrameMaker::State {
                               Random& random);
   std::vector<Prop> DrawPropsFor(const ViewSample& view, const recon::Posture& joints_in_cam,
                                  const PeopleScene& scene, Random& random);
-  std::vector<Prop> DrawThings(Staging staging, const recon::Posture& joints_in_cam,
-                               const ViewSample& view, Random& random) const;
+  std::vector<Prop> DrawInteractionProps(Interaction interaction,
+                                         const recon::Posture& joints_in_cam,
+                                         const ViewSample& view, Random& random) const;
   // People in their poses before the camera.
-  struct Cast {
-    Staging staging = Staging::kNone;  // of the first of them
+  struct PosedPeople {
+    Interaction interaction = Interaction::kNone;  // of the first of them
     std::vector<TruthBody> bodies{};
     std::vector<Prop> things{};  // that they wear, in camera space
     PixelBox box{};              // around them
   };
-  Cast PosePeople(int64_t index, const PeopleScene& scene, const ViewSample& view, Random& random,
-                  Random& thing);
+  PosedPeople PosePeople(int64_t index, const PeopleScene& scene, const ViewSample& view,
+                         Random& random, Random& thing);
   std::optional<LabelledFrame> TryMake(int64_t index, int attempt);
   depth::SensorModel DrawSensor(int64_t index) const;
   LabelledFrame RenderFrame(const ViewSample& view, const std::vector<Prop>& props,
@@ -99,50 +100,50 @@ struct FrameMaker::State {
 
 void FrameMaker::State::Dress(int64_t index, int person) {
   const int64_t key = options.sequence ? 0 : index / kFramesPerBody;
-  Dressed& wearer = wearers[static_cast<size_t>(person)];
-  if (wearer.key == key) return;
+  ClothedPerson& clothed = clothed_people[static_cast<size_t>(person)];
+  if (clothed.key == key) return;
   Random random = SeedStream(options.seed, kBodyStream, key, person);
   if (options.random_bodies) {
-    wearer.body = studio.model.Shape(options.ends ? SampleAnyShape(options.split, random)
-                                                  : SampleShape(options.split, random));
-    wearer.clothing =
+    clothed.body = inputs.model.Shape(options.ends ? SampleAnyShape(options.split, random)
+                                                   : SampleShape(options.split, random));
+    clothed.clothing =
         options.hanging_clothes ? SampleHangingClothing(random) : SampleClothing(random);
     if (options.hanging_clothes) {
-      wearer.worn = SampleWorn(random);
-      wearer.clothing.glove_m = SampleGloves_m(random);
+      clothed.accessories = SampleAccessories(random);
+      clothed.clothing.glove_m = SampleGloves_m(random);
     }
   } else {
-    wearer.body = studio.model.Shape({});
-    wearer.clothing = {};
+    clothed.body = inputs.model.Shape({});
+    clothed.clothing = {};
   }
-  wearer.rest_m = studio.wardrobe.Dress(wearer.body, wearer.clothing);
-  wearer.key = key;
+  clothed.rest_m = inputs.wardrobe.Dress(clothed.body, clothed.clothing);
+  clothed.key = key;
 }
 
 // Skins the person into camera space, feet on the floor; returns its joints there.
 recon::Posture FrameMaker::State::Pose(const recon::RigPose& pose, size_t person,
                                        const Eigen::Isometry3d& camera_from_world) {
-  const Dressed& wearer = wearers[person];
+  const ClothedPerson& clothed = clothed_people[person];
   auto& posed = posed_m[person];
-  studio.model.Skin(wearer.body, wearer.rest_m, pose, camera_from_world, posed);
-  recon::Posture joints = recon::ComputeJoints(wearer.body, pose);
+  inputs.model.Skin(clothed.body, clothed.rest_m, pose, camera_from_world, posed);
+  recon::Posture joints = recon::ComputeJoints(clothed.body, pose);
   for (auto& joint_m : joints.position_m) joint_m = camera_from_world * joint_m;
-  const Eigen::Vector3f inside_m = joints[recon::Joint::kHipCenter].cast<float>();
-  studio.wardrobe.HideUnworn(wearer.clothing, inside_m, posed);
+  const Eigen::Vector3f inside_m = joints[recon::Joint::kHipCenter].posed<float>();
+  inputs.wardrobe.HideUnworn(clothed.clothing, inside_m, posed);
   const Eigen::Isometry3d world_from_camera = camera_from_world.inverse();
-  const Eigen::Vector3f up = world_from_camera.linear().row(1).transpose().cast<float>();
+  const Eigen::Vector3f up = world_from_camera.linear().row(1).transpose().posed<float>();
   float lowest_m = 1e9f;
   for (const auto& p : posed) lowest_m = std::min(lowest_m, up.dot(p));
   lowest_m += static_cast<float>(world_from_camera.translation().y());
   const bool jump = options.sequence ? lowest_m > 0 : lowest_m > kTrustedGap_m;
   const Eigen::Vector3f lift = jump ? Eigen::Vector3f::Zero() : Eigen::Vector3f(-lowest_m * up);
   for (auto& p : posed) p += lift;
-  for (auto& joint_m : joints.position_m) joint_m += lift.cast<double>();
+  for (auto& joint_m : joints.position_m) joint_m += lift.posed<double>();
   return joints;
 }
 
 recon::RigPose FrameMaker::State::DrawPose(int64_t index, Random& random) const {
-  const auto& poses = studio.poses;
+  const auto& poses = inputs.poses;
   if (options.sequence) {
     // A clip shorter than the sequence is played to and fro.
     const auto period = std::max<int64_t>(1, 2 * static_cast<int64_t>(poses.size()) - 2);
@@ -161,8 +162,9 @@ std::vector<Prop> FrameMaker::State::DrawProps(const recon::Posture& joints_in_c
   recon::Posture joints_in_world = joints_in_cam;
   for (auto& joint_m : joints_in_world.position_m) joint_m = world_from_camera * joint_m;
   if (options.sequence && path_in_world.empty()) {
-    for (const recon::RigPose& pose : studio.poses) {
-      path_in_world.push_back(recon::ComputeJoints(wearers[0].body, Turned(pose, view.facing_rad)));
+    for (const recon::RigPose& pose : inputs.poses) {
+      path_in_world.push_back(
+          recon::ComputeJoints(clothed_people[0].body, Turned(pose, view.facing_rad)));
     }
   }
   std::vector<Prop> props;
@@ -202,15 +204,17 @@ std::vector<Prop> FrameMaker::State::DrawPropsFor(const ViewSample& view,
 }
 
 // What the person holds up, leans on or what hangs on the wall behind, besides DrawProps.
-std::vector<Prop> FrameMaker::State::DrawThings(Staging staging,
-                                                const recon::Posture& joints_in_cam,
-                                                const ViewSample& view, Random& random) const {
+std::vector<Prop> FrameMaker::State::DrawInteractionProps(Interaction interaction,
+                                                          const recon::Posture& joints_in_cam,
+                                                          const ViewSample& view,
+                                                          Random& random) const {
   const Eigen::Isometry3d world_from_camera = view.camera_from_world.inverse();
   recon::Posture joints_in_world = joints_in_cam;
   for (auto& joint_m : joints_in_world.position_m) joint_m = world_from_camera * joint_m;
-  std::vector<Prop> props = StagedProps(staging, joints_in_world, view.camera_from_world, random);
+  std::vector<Prop> props =
+      InteractionProps(interaction, joints_in_world, view.camera_from_world, random);
   if (options.background == Background::kLivedIn) {
-    for (Prop& prop : SampleNobodies(view.camera_from_world, random))
+    for (Prop& prop : SampleDistractors(view.camera_from_world, random))
       props.push_back(std::move(prop));
   }
   return props;
@@ -239,14 +243,14 @@ LabelledFrame FrameMaker::State::RenderFrame(const ViewSample& view, const std::
   if (std::holds_alternative<depth::TimeOfFlightOptions>(sensor)) {
     const int64_t body = options.sequence ? 0 : index / kFramesPerBody;
     seen.reflectance =
-        DrawReflectance(seen, studio.model, mesh_of_person,
+        DrawReflectance(seen, inputs.model, mesh_of_person,
                         MixSeed(options.seed, kSensorStream, static_cast<uint64_t>(body)));
   }
   depth::SensorImage sensed = depth::Simulate(sensor, seen, crop, view.camera, noise_seed);
 
   LabelledFrame frame;
   frame.depth.camera = crop;
-  LabelPeople(seen, sensed, studio.model, mesh_of_person, &frame);
+  LabelPeople(seen, sensed, inputs.model, mesh_of_person, &frame);
   LabelProps(seen, props, prop_mesh, options.background, &sensed, &frame);
   frame.depth.depth_mm = std::move(sensed.depth_mm.data);
   if (view.shrink > 1.0) {
@@ -257,67 +261,68 @@ LabelledFrame FrameMaker::State::RenderFrame(const ViewSample& view, const std::
 }
 
 // Everybody posed in camera space, and what they wear.
-FrameMaker::State::Cast FrameMaker::State::PosePeople(int64_t index, const PeopleScene& scene,
-                                                      const ViewSample& view, Random& random,
-                                                      Random& thing) {
-  Cast cast{.staging = DrawStaging(options.occluders, thing)};
+FrameMaker::State::PosedPeople FrameMaker::State::PosePeople(int64_t index,
+                                                             const PeopleScene& scene,
+                                                             const ViewSample& view, Random& random,
+                                                             Random& thing) {
+  PosedPeople posed{.interaction = DrawInteraction(options.occluders, thing)};
   for (size_t person = 0; person < scene.places_m.size(); ++person) {
-    const Dressed& wearer = wearers[person];
+    const ClothedPerson& clothed = clothed_people[person];
     const double heading_rad =
         person == 0 ? view.facing_rad : view.facing_rad + random.Uniform(-1.5, 1.5);
     recon::RigPose pose = DrawPose(index, random);
-    if (person == 0) cast.staging = Arrange(cast.staging, &pose, thing);
+    if (person == 0) posed.interaction = ArrangeArms(posed.interaction, &pose, thing);
     pose = Turned(pose, heading_rad);
     if (!options.sequence) {
       const double right = random.Uniform(0, 1), left = random.Uniform(0, 1);
-      recon::CloseHands(wearer.body, left, right, &pose);
+      recon::CloseHands(clothed.body, left, right, &pose);
     }
-    pose.root_m += scene.places_m[person] / wearer.body.root_scale;
+    pose.root_m += scene.places_m[person] / clothed.body.root_scale;
     const auto id = static_cast<uint8_t>(person + 1);
-    cast.bodies.push_back({id, Pose(pose, person, view.camera_from_world), {}});
-    for (Prop& prop : WornProps(wearer.worn, pose, cast.bodies.back().joints_m,
-                                wearer.body.height_m, view.camera_from_world, id)) {
-      cast.things.push_back(std::move(prop));
+    posed.bodies.push_back({id, Pose(pose, person, view.camera_from_world), {}});
+    for (Prop& prop : AccessoryProps(clothed.accessories, pose, posed.bodies.back().joints_m,
+                                     clothed.body.height_m, view.camera_from_world, id)) {
+      posed.things.push_back(std::move(prop));
     }
     renderer.UpdateVertices(mesh_of_person[person], posed_m[person]);
-    cast.box = Union(cast.box, BoundingBoxOf(posed_m[person], view.camera));
+    posed.box = Union(posed.box, BoundingBoxOf(posed_m[person], view.camera));
   }
-  return cast;
+  return posed;
 }
 
 std::optional<LabelledFrame> FrameMaker::State::TryMake(int64_t index, int attempt) {
   const int64_t drawn_for = options.sequence ? 0 : index;  // a sequence is one draw
   Random random = SeedStream(options.seed, kSceneStream, drawn_for, attempt);
   for (int person = 0; person < options.people; ++person) Dress(index, person);
-  const PeopleScene scene = DrawScene(options, wearers[0].body.height_m, random);
+  const PeopleScene scene = DrawScene(options, clothed_people[0].body.height_m, random);
   ViewSample view = scene.view;
   view.camera_from_world = scene.cameras_from_world[static_cast<size_t>(options.camera)];
   Random thing = SeedStream(options.seed, kThingStream, drawn_for, attempt);
-  Cast cast = PosePeople(index, scene, view, random, thing);
+  PosedPeople posed = PosePeople(index, scene, view, random, thing);
   // Nobody in view: another view is tried, but a sequence keeps its own.
-  const bool unseen = cast.box.u1 - cast.box.u0 < 2 || cast.box.v1 - cast.box.v0 < 2;
+  const bool unseen = posed.box.u1 - posed.box.u0 < 2 || posed.box.v1 - posed.box.v0 < 2;
   const bool room = options.background != Background::kNone;
   if (unseen && !options.sequence && !room) return std::nullopt;
 
-  const recon::Posture& joints_in_cam = cast.bodies[0].joints_m;
-  for (Prop& prop : DrawThings(cast.staging, joints_in_cam, view, thing)) {
-    cast.things.push_back(std::move(prop));
+  const recon::Posture& joints_in_cam = posed.bodies[0].joints_m;
+  for (Prop& prop : DrawInteractionProps(posed.interaction, joints_in_cam, view, thing)) {
+    posed.things.push_back(std::move(prop));
   }
-  PixelBox box = cast.box;
-  for (const Prop& prop : cast.things) {
+  PixelBox box = posed.box;
+  for (const Prop& prop : posed.things) {
     box = Union(box, BoundingBoxOf(prop.mesh_in_cam.vertices_m, view.camera));
   }
   if (room || (unseen && options.sequence)) {
     box = {0, 0, view.camera.width - 1, view.camera.height - 1};
   }
   std::vector<Prop> props = DrawPropsFor(view, joints_in_cam, scene, random);
-  for (Prop& prop : cast.things) props.push_back(std::move(prop));
+  for (Prop& prop : posed.things) props.push_back(std::move(prop));
   const uint64_t noise_seed = SeedStream(options.seed, kNoiseStream, index, attempt).Bits();
   LabelledFrame frame =
       RenderFrame(view, props, box, index,
                   options.camera == 0 ? noise_seed
                                       : MixSeed(noise_seed, static_cast<uint64_t>(options.camera)));
-  AddTruth(std::move(cast.bodies), view, index, &frame);
+  AddTruth(std::move(posed.bodies), view, index, &frame);
   return frame;
 }
 
@@ -331,7 +336,8 @@ depth::Camera MakeCamera(const FrameOptions& options) {
 
 std::vector<Eigen::Isometry3d> FrameMaker::FromCamera0() {
   Random random = SeedStream(state_->options.seed, kSceneStream, 0, 0);
-  const PeopleScene scene = DrawScene(state_->options, state_->wearers[0].body.height_m, random);
+  const PeopleScene scene =
+      DrawScene(state_->options, state_->clothed_people[0].body.height_m, random);
   std::vector<Eigen::Isometry3d> all{Eigen::Isometry3d::Identity()};
   for (size_t k = 1; k < scene.cameras_from_world.size(); ++k) {
     all.push_back(scene.cameras_from_world[k] * scene.view.camera_from_world.inverse());
@@ -339,7 +345,7 @@ std::vector<Eigen::Isometry3d> FrameMaker::FromCamera0() {
   return all;
 }
 
-FrameMaker::FrameMaker(const FrameStudio& studio) : state_(std::make_unique<State>(studio)) {}
+FrameMaker::FrameMaker(const FrameInputs& inputs) : state_(std::make_unique<State>(inputs)) {}
 FrameMaker::~FrameMaker() = default;
 
 LabelledFrame FrameMaker::Make(int64_t index) {

@@ -47,22 +47,22 @@ struct FrameOptions {
 depth::Camera MakeCamera(const FrameOptions& options);
 
 /// What all threads share while rendering.
-struct FrameStudio {
+struct FrameInputs {
   recon::BodyModel model;
   recon::Wardrobe wardrobe;
   std::vector<recon::RigPose> poses;
   FrameOptions options;
 
-  FrameStudio(recon::BodyModel body, std::vector<recon::RigPose> bank, const FrameOptions& how)
+  FrameInputs(recon::BodyModel body, std::vector<recon::RigPose> bank, const FrameOptions& how)
       : model(std::move(body)), wardrobe(model), poses(std::move(bank)), options(how) {}
-  FrameStudio(const FrameStudio&) = delete;  // the wardrobe points into the model
-  FrameStudio& operator=(const FrameStudio&) = delete;
+  FrameInputs(const FrameInputs&) = delete;  // the wardrobe points into the model
+  FrameInputs& operator=(const FrameInputs&) = delete;
 };
 
-/// Makes labelled frames; one maker a thread. Frame i depends on the studio and i only.
+/// Makes labelled frames; one maker a thread. Frame i depends on the inputs and i only.
 class FrameMaker {
  public:
-  explicit FrameMaker(const FrameStudio& studio);
+  explicit FrameMaker(const FrameInputs& inputs);
   ~FrameMaker();
 
   LabelledFrame Make(int64_t index);

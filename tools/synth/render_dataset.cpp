@@ -68,16 +68,16 @@ std::string DigestOf(const std::vector<recon::RigPose>& poses) {
   return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
 }
 
-DatasetManifest MakeManifest(const FrameStudio& studio, const RenderJob& job) {
+DatasetManifest MakeManifest(const FrameInputs& inputs, const RenderJob& job) {
   DatasetManifest manifest;
   manifest.frames = job.frames;
-  manifest.camera = MakeCamera(studio.options);
-  manifest.seed = studio.options.seed;
+  manifest.camera = MakeCamera(inputs.options);
+  manifest.seed = inputs.options.seed;
   manifest.command = job.command;
-  manifest.split = studio.options.split == Split::kTest ? "test" : "train";
-  manifest.view = NameOf(studio.options.view);
+  manifest.split = inputs.options.split == Split::kTest ? "test" : "train";
+  manifest.view = NameOf(inputs.options.view);
   manifest.sources = job.sources;
-  manifest.motion = DigestOf(studio.poses);
+  manifest.motion = DigestOf(inputs.poses);
   manifest.ossa = job.ossa;
   manifest.terms = job.terms;
   manifest.png = job.png;
@@ -181,8 +181,8 @@ std::vector<int64_t> FindChunksToMake(const RenderJob& job, std::atomic<int64_t>
 // Threads that make one chunk after the other. The first failure stops them all.
 class ChunkWorkers {
  public:
-  ChunkWorkers(const FrameStudio& studio, const RenderJob& job)
-      : studio_(studio), job_(job), camera_(MakeCamera(studio.options)) {}
+  ChunkWorkers(const FrameInputs& inputs, const RenderJob& job)
+      : inputs_(inputs), job_(job), camera_(MakeCamera(inputs.options)) {}
 
   RenderEnd Run() {
     chunks_ = FindChunksToMake(job_, &done_);
@@ -205,7 +205,7 @@ class ChunkWorkers {
  private:
   void RenderChunks() {
     try {
-      FrameMaker maker(studio_);
+      FrameMaker maker(inputs_);
       for (size_t k = next_++; k < chunks_.size() && !stopped_; k = next_++) {
         if (!RenderChunk(job_, camera_, chunks_[k], &maker, &done_)) stopped_ = true;
       }
@@ -217,7 +217,7 @@ class ChunkWorkers {
     --running_;
   }
 
-  const FrameStudio& studio_;
+  const FrameInputs& inputs_;
   const RenderJob& job_;
   depth::Camera camera_;
   std::vector<int64_t> chunks_;
@@ -231,18 +231,18 @@ class ChunkWorkers {
 
 }  // namespace
 
-RenderEnd RenderShare(const FrameStudio& studio, const RenderJob& job) {
-  PrepareFolder(job, ManifestToJson(MakeManifest(studio, job)));
+RenderEnd RenderShare(const FrameInputs& inputs, const RenderJob& job) {
+  PrepareFolder(job, ManifestToJson(MakeManifest(inputs, job)));
   if (fs::exists(job.out / "manifest.json")) return RenderEnd::kDone;
-  return ChunkWorkers(studio, job).Run();
+  return ChunkWorkers(inputs, job).Run();
 }
 
-void FinishDataset(const FrameStudio& studio, const RenderJob& job) {
+void FinishDataset(const FrameInputs& inputs, const RenderJob& job) {
   if (!fs::exists(job.out / "manifest.json")) {
     if (job.png) JoinTruth(job);
     RemoveLeftovers(job.out);  // of runs that were killed: all of it was made again
     SyncFiles(job.out);        // the manifest says that all is there
-    WriteText(job.out / "manifest.json", ManifestToJson(MakeManifest(studio, job)));
+    WriteText(job.out / "manifest.json", ManifestToJson(MakeManifest(inputs, job)));
   }
   std::error_code ignored;
   fs::remove_all(WorkFolder(job), ignored);

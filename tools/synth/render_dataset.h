@@ -29,9 +29,9 @@ enum class RenderEnd { kDone, kInterrupted };
 /// Renders this rank's share of a data set into a folder. Work that is there already from a run of
 /// the same job, even one that was killed, is kept. Throws InputError when the folder holds
 /// something else. The set is complete after FinishDataset.
-RenderEnd RenderShare(const FrameStudio& studio, const RenderJob& job);
+RenderEnd RenderShare(const FrameInputs& inputs, const RenderJob& job);
 
 /// Joins what the ranks made and writes the manifest: call once, when all are done.
-void FinishDataset(const FrameStudio& studio, const RenderJob& job);
+void FinishDataset(const FrameInputs& inputs, const RenderJob& job);
 
 }  // namespace ossa::tools

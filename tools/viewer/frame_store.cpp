@@ -12,23 +12,23 @@ FrameStore::FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> fo
       body_(std::move(body)),
       spools_(keeps ? std::make_unique<Spools>() : nullptr) {}
 
-void FrameStore::Add(Moment moment) {
+void FrameStore::Add(DisplayFrame display) {
   if (!keeps()) {
-    auto newest = std::make_shared<const Moment>(std::move(moment));
+    auto newest = std::make_shared<const DisplayFrame>(std::move(display));
     const std::lock_guard lock(mutex_);
     newest_.swap(newest);
     packed_.reset();
     ++count_.frames;
     return;
   }
-  const PackedMoment packed = Pack(moment, moment.parts, body_.get());
-  const std::string line = recon::SkeletonJsonLine(moment.skeletons());
+  const PackedFrame packed = Pack(display, display.parts, body_.get());
+  const std::string line = recon::SkeletonJsonLine(display.skeletons());
   const std::lock_guard lock(mutex_);
-  spools_->moments.Append(packed.members + packed.pictures + packed.meshes);
+  spools_->frames.Append(packed.members + packed.pictures + packed.meshes);
   spools_->lines.Append(line);
   spools_->kept.push_back({packed.width, packed.height, packed.planes, packed.members.size(),
-                           packed.pictures.size(), moment.skeletons().time_s});
-  for (const FittedBody& fit : moment.fits) shapes_[fit.id] = fit.pose.shape;
+                           packed.pictures.size(), display.skeletons().time_s});
+  for (const FittedBody& fit : display.fits) shapes_[fit.id] = fit.pose.shape;
   ++count_.frames;
 }
 
@@ -44,7 +44,7 @@ void FrameStore::Clear() {
   packed_.reset();
   shapes_.clear();
   if (!keeps()) return;
-  spools_->moments.Clear();
+  spools_->frames.Clear();
   spools_->lines.Clear();
   spools_->kept.clear();
 }
@@ -54,14 +54,14 @@ FrameStore::Count FrameStore::count() const {
   return count_;
 }
 
-std::shared_ptr<const PackedMoment> FrameStore::ReadKept(int64_t number) const {
+std::shared_ptr<const PackedFrame> FrameStore::ReadKept(int64_t number) const {
   const auto i = static_cast<size_t>(number);
   const Kept& kept = spools_->kept[i];
-  auto packed = std::make_shared<PackedMoment>();
+  auto packed = std::make_shared<PackedFrame>();
   packed->width = kept.width;
   packed->height = kept.height;
   packed->planes = kept.planes;
-  std::string record = spools_->moments.Read(i);
+  std::string record = spools_->frames.Read(i);
   packed->pictures = record.substr(kept.members, kept.pictures);
   packed->meshes = record.substr(kept.members + kept.pictures);
   record.resize(kept.members);
@@ -69,15 +69,15 @@ std::shared_ptr<const PackedMoment> FrameStore::ReadKept(int64_t number) const {
   return packed;
 }
 
-PackedMoment FrameStore::PackWithParts(const Moment& moment) const {
-  const bool are_wanted = forest_ && moment.is_upright && moment.parts.data.empty() &&
-                          moment.users.data.size() == moment.depth.depth_mm.size();
-  if (!are_wanted) return Pack(moment, moment.parts, body_.get());
-  return Pack(moment, FindParts(*forest_, moment.depth, moment.users), body_.get());
+PackedFrame FrameStore::PackWithParts(const DisplayFrame& display) const {
+  const bool are_wanted = forest_ && display.is_upright && display.parts.data.empty() &&
+                          display.users.data.size() == display.depth.depth_mm.size();
+  if (!are_wanted) return Pack(display, display.parts, body_.get());
+  return Pack(display, FindParts(*forest_, display.depth, display.users), body_.get());
 }
 
-std::shared_ptr<const PackedMoment> FrameStore::At(int64_t& number) const {
-  std::shared_ptr<const Moment> newest;
+std::shared_ptr<const PackedFrame> FrameStore::At(int64_t& number) const {
+  std::shared_ptr<const DisplayFrame> newest;
   {
     const std::lock_guard lock(mutex_);
     if (keeps()) return number >= 0 && number < count_.frames ? ReadKept(number) : nullptr;
@@ -86,7 +86,7 @@ std::shared_ptr<const PackedMoment> FrameStore::At(int64_t& number) const {
     newest = newest_;
   }
   // Outside the lock, which would block the tracker at its next frame.
-  auto packed = std::make_shared<const PackedMoment>(PackWithParts(*newest));
+  auto packed = std::make_shared<const PackedFrame>(PackWithParts(*newest));
   const std::lock_guard lock(mutex_);
   if (newest == newest_) packed_ = packed;
   return packed;

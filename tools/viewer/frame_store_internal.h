@@ -9,25 +9,25 @@
 
 #include "forest/forest.h"
 #include "recon/fit/body_mesh.h"
+#include "tools/viewer/display_frame.h"
 #include "tools/viewer/message_internal.h"
-#include "tools/viewer/moment.h"
 #include "tools/viewer/spool_internal.h"
 
 namespace ossa::viewer {
 
-/// The moments that can be requested: of a recording all so far, of a camera the newest. Used from
+/// The frames that can be requested: of a recording all so far, of a camera the newest. Used from
 /// any thread.
 class FrameStore {
  public:
-  /// `forest`: finds the missing body parts of requested moments of a camera; `body`: the mesh of
+  /// `forest`: finds the missing body parts of requested frames of a camera; `body`: the mesh of
   /// fitted bodies. Each may be null.
   FrameStore(bool keeps, std::shared_ptr<const forest::ForestModel> forest,
              std::shared_ptr<const recon::BodyMesh> body);
 
-  void Add(Moment moment);
+  void Add(DisplayFrame display);
   /// The recording has ended.
   void Complete();
-  /// Deletes all moments, for another run with changed settings.
+  /// Deletes all frames, for another run with changed settings.
   void Clear();
 
   struct Count {
@@ -38,9 +38,9 @@ class FrameStore {
   Count count() const;
   bool keeps() const { return spools_ != nullptr; }
 
-  /// The moment of that number; of a camera always the newest. Null where there is none; `number`
-  /// becomes that of the returned moment.
-  std::shared_ptr<const PackedMoment> At(int64_t& number) const;
+  /// The frame of that number; of a camera always the newest. Null where there is none; `number`
+  /// becomes that of the returned frame.
+  std::shared_ptr<const PackedFrame> At(int64_t& number) const;
   /// The final skeletons of a frame as a line of skeleton JSONL without a line end; of a camera
   /// those of the newest frame. Empty without any.
   std::string Line(int64_t number) const;
@@ -56,11 +56,11 @@ class FrameStore {
     double time_s = 0.0;
   };
   struct Spools {
-    Spool moments, lines;
+    Spool frames, lines;
     std::vector<Kept> kept;
   };
-  std::shared_ptr<const PackedMoment> ReadKept(int64_t number) const;
-  PackedMoment PackWithParts(const Moment& moment) const;
+  std::shared_ptr<const PackedFrame> ReadKept(int64_t number) const;
+  PackedFrame PackWithParts(const DisplayFrame& display) const;
 
   const std::shared_ptr<const forest::ForestModel> forest_;
   const std::shared_ptr<const recon::BodyMesh> body_;
@@ -68,9 +68,9 @@ class FrameStore {
   mutable std::mutex mutex_;  // guards all below
   Count count_;
   std::unique_ptr<Spools> spools_;
-  std::shared_ptr<const Moment> newest_;
+  std::shared_ptr<const DisplayFrame> newest_;
   std::map<int, recon::ShapeVector> shapes_;
-  mutable std::shared_ptr<const PackedMoment> packed_;  // of the newest, once requested
+  mutable std::shared_ptr<const PackedFrame> packed_;  // of the newest, once requested
 };
 
 }  // namespace ossa::viewer

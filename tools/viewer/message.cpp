@@ -45,19 +45,19 @@ void AppendMesh(std::string& bytes, const recon::BodyMesh& body, const recon::Su
   }
 }
 
-std::string LayersJson(const Moment& moment) {
+std::string LayersJson(const DisplayFrame& display) {
   std::string text = "{";
   for (size_t i = 0; i < kLayerNames.size(); ++i) {
     text += fmt::format(R"({}"{}":{})", i == 0 ? "" : ",", kLayerNames[i],
-                        recon::SkeletonJsonLine(moment.layers[i]));
+                        recon::SkeletonJsonLine(display.layers[i]));
   }
   return text + "}";
 }
 
 // Users and parts have one label per pixel of the depth image, or are absent.
-bool HasLabels(const Moment& moment, const depth::Image<uint8_t>& parts) {
-  const size_t pixels = moment.depth.depth_mm.size();
-  return moment.users.data.size() == pixels && parts.data.size() == pixels;
+bool HasLabels(const DisplayFrame& display, const depth::Image<uint8_t>& parts) {
+  const size_t pixels = display.depth.depth_mm.size();
+  return display.users.data.size() == pixels && parts.data.size() == pixels;
 }
 
 template <typename T>
@@ -77,37 +77,37 @@ void AppendThinned(std::string& bytes, const char* image, int width, int height,
 
 }  // namespace
 
-PackedMoment Pack(const Moment& moment, const depth::Image<uint8_t>& parts,
-                  const recon::BodyMesh* body) {
-  const depth::Camera& camera = moment.depth.camera;
-  PackedMoment packed;
+PackedFrame Pack(const DisplayFrame& display, const depth::Image<uint8_t>& parts,
+                 const recon::BodyMesh* body) {
+  const depth::Camera& camera = display.depth.camera;
+  PackedFrame packed;
   packed.members = fmt::format(
       R"("frame":{},"time_s":{},"camera":{},"layers":{},"ms":{},"dropped":{},"latency_ms":{:.2f},)"
       R"("meshes":{},"solids":{})",
-      moment.skeletons().frame, moment.skeletons().time_s, CameraJson(camera), LayersJson(moment),
-      StagesJson(moment.ms), moment.dropped, moment.latency_ms,
-      body != nullptr ? MeshesJson(moment.fits, body->vertices.size()) : "[]",
-      SolidsJson(moment.solids));
+      display.skeletons().frame, display.skeletons().time_s, CameraJson(camera),
+      LayersJson(display), StagesJson(display.ms), display.dropped, display.latency_ms,
+      body != nullptr ? MeshesJson(display.fits, body->vertices.size()) : "[]",
+      SolidsJson(display.solids));
   if (body != nullptr) {
-    for (const FittedBody& fit : moment.fits) AppendMesh(packed.meshes, *body, fit.pose);
+    for (const FittedBody& fit : display.fits) AppendMesh(packed.meshes, *body, fit.pose);
   }
-  if (moment.depth.depth_mm.empty()) return packed;
+  if (display.depth.depth_mm.empty()) return packed;
   packed.width = camera.width;
   packed.height = camera.height;
-  packed.planes = HasLabels(moment, parts) ? 3 : 1;
-  packed.pictures.reserve(moment.depth.depth_mm.size() * 4);
-  Append(packed.pictures, moment.depth.depth_mm);
+  packed.planes = HasLabels(display, parts) ? 3 : 1;
+  packed.pictures.reserve(display.depth.depth_mm.size() * 4);
+  Append(packed.pictures, display.depth.depth_mm);
   if (packed.planes == 1) return packed;
-  Append(packed.pictures, moment.users.data);
+  Append(packed.pictures, display.users.data);
   Append(packed.pictures, parts.data);
   return packed;
 }
 
-std::string HeadOf(const PackedMoment& moment, int64_t number, int step, std::string_view state) {
+std::string HeadOf(const PackedFrame& display, int64_t number, int step, std::string_view state) {
   std::string header =
       fmt::format(R"({{"number":{},"step":{},"width":{},"height":{},"planes":{},{},"state":{}}})",
-                  number, step, (moment.width + step - 1) / step, (moment.height + step - 1) / step,
-                  moment.planes, moment.members, state);
+                  number, step, (display.width + step - 1) / step,
+                  (display.height + step - 1) / step, display.planes, display.members, state);
   header.resize((header.size() + 3) / 4 * 4, ' ');
   const auto length = static_cast<uint32_t>(header.size());
   std::string bytes;
@@ -115,13 +115,13 @@ std::string HeadOf(const PackedMoment& moment, int64_t number, int step, std::st
   return bytes += header;
 }
 
-std::string ThinPictures(const PackedMoment& moment, int step) {
-  const auto pixels = static_cast<size_t>(moment.width) * static_cast<size_t>(moment.height);
-  const char* image = moment.pictures.data();
+std::string ThinPictures(const PackedFrame& display, int step) {
+  const auto pixels = static_cast<size_t>(display.width) * static_cast<size_t>(display.height);
+  const char* image = display.pictures.data();
   std::string bytes;
-  for (int plane = 0; plane < moment.planes; ++plane) {
+  for (int plane = 0; plane < display.planes; ++plane) {
     const size_t size = plane == 0 ? 2 : 1;
-    AppendThinned(bytes, image, moment.width, moment.height, size, step);
+    AppendThinned(bytes, image, display.width, display.height, size, step);
     image += pixels * size;
   }
   return bytes;

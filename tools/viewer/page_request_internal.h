@@ -9,8 +9,8 @@
 namespace ossa::viewer {
 
 /// A request of a page over its WebSocket: one JSON object a message, each answered by one message.
-///   {"frame": N, "step": S}    the moment N of a recording: binary
-///   {"after": N, "step": S}    the newest moment once it is not N: binary, or the state after 1 s
+///   {"frame": N, "step": S}    the frame N of a recording: binary
+///   {"after": N, "step": S}    the newest frame once it is not N: binary, or the state after 1 s
 ///   {"state": true}            the state: text
 ///   {"settings": {...}}        members as in the state, others unchanged: the state
 ///   {"record": true|false}     the record button: the state

@@ -139,7 +139,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   beast::flat_buffer buffer_;
   boost::asio::steady_timer timer_;
   Pace pace_;
-  std::shared_ptr<const PackedMoment> packed_;  // kept until it is sent
+  std::shared_ptr<const PackedFrame> packed_;  // kept until it is sent
   std::string head_, thinned_;
 };
 

@@ -101,9 +101,9 @@ std::vector<std::string> Viewer::urls() const {
   return urls;
 }
 
-void Viewer::Show(Moment moment) {
-  impl_->shared.recorder.Take(moment.depth);
-  impl_->shared.store.Add(std::move(moment));
+void Viewer::Show(DisplayFrame display) {
+  impl_->shared.recorder.Take(display.depth);
+  impl_->shared.store.Add(std::move(display));
   impl_->server.Notify();
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "recon/skeleton_sequence.h"
-#include "tools/viewer/moment.h"
+#include "tools/viewer/display_frame.h"
 
 namespace ossa::forest {
 class ForestModel;  // forest/forest.h
@@ -73,9 +73,9 @@ class Viewer {
   /// Addresses for browsers, one per network, with the token.
   std::vector<std::string> urls() const;
 
-  /// The next moment; never waits for a browser. Throws InputError where a recording's frames do
+  /// The next frame; never waits for a browser. Throws InputError where a recording's frames do
   /// not fit on the disk.
-  void Show(Moment moment);
+  void Show(DisplayFrame display);
   /// Of a recording: all frames were shown.
   void Complete();
   /// The recording will be shown again from its first frame on.

@@ -9,7 +9,7 @@
 #include "recon/motion/authored.h"
 #include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 
 namespace ossa::tools {
 namespace {
@@ -38,7 +38,9 @@ class InIndoorScenes : public testing::Test {
     model_ = std::make_unique<recon::BodyModel>(LoadFetchedBody());
     wardrobe_ = std::make_unique<recon::Wardrobe>(*model_);
   }
-  IndoorCast Cast() const { return {*model_, *wardrobe_, clips_, Split::kTest, 160, 120, 4}; }
+  IndoorSceneInputs Inputs() const {
+    return {*model_, *wardrobe_, clips_, Split::kTest, 160, 120, 4};
+  }
 
  private:
   std::vector<recon::MotionClip> clips_;
@@ -47,10 +49,10 @@ class InIndoorScenes : public testing::Test {
 };
 
 TEST_F(InIndoorScenes, SameSeedGivesSameFramesWithAllPeople) {
-  const IndoorCast cast = Cast();
+  const IndoorSceneInputs inputs = Inputs();
   const IndoorScenario scenario{"two", 2, Furnishing::kFurnished};
-  const LabelledFrame first = IndoorStage(scenario, cast, 3).RenderFrame(1);
-  const LabelledFrame again = IndoorStage(scenario, cast, 3).RenderFrame(1);
+  const LabelledFrame first = IndoorSceneRenderer(scenario, inputs, 3).RenderFrame(1);
+  const LabelledFrame again = IndoorSceneRenderer(scenario, inputs, 3).RenderFrame(1);
   EXPECT_EQ(first.depth.depth_mm, again.depth.depth_mm);
   for (const int user : {1, 2})
     EXPECT_GT(std::count(first.users.data.begin(), first.users.data.end(), user), 200);
@@ -58,10 +60,11 @@ TEST_F(InIndoorScenes, SameSeedGivesSameFramesWithAllPeople) {
 
 // Without the sofa the same seed has the same person before the same sensor.
 TEST_F(InIndoorScenes, SofaInFrontHidesAtLeastAThirdOfThePerson) {
-  const IndoorCast cast = Cast();
+  const IndoorSceneInputs inputs = Inputs();
   for (const uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
     const auto seen = [&](Furnishing furnishing) {
-      const LabelledFrame frame = IndoorStage({"one", 1, furnishing}, cast, seed).RenderFrame(0);
+      const LabelledFrame frame =
+          IndoorSceneRenderer({"one", 1, furnishing}, inputs, seed).RenderFrame(0);
       return std::count(frame.users.data.begin(), frame.users.data.end(), 1);
     };
     const auto whole = seen(Furnishing::kEmpty), rest = seen(Furnishing::kSofaBefore);

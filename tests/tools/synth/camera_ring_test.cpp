@@ -7,7 +7,7 @@
 
 #include "depth/base/angles.h"
 #include "recon/motion/mocap.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/synth/sequence_poses.h"
 
@@ -67,14 +67,14 @@ TEST(FrameMaker, SeesTheSamePeopleFromEachCamera) {
   options.background = Background::kRoom;
   options.people = 2;
   options.views = 2;
-  FrameStudio studio(LoadFetchedBody(), SequencePoses(recon::LoadMocap({"authored"}), 30, 4),
+  FrameInputs inputs(LoadFetchedBody(), SequencePoses(recon::LoadMocap({"authored"}), 30, 4),
                      options);
   std::vector<LabelledFrame> seen;
   for (const int camera : {0, 1}) {
-    studio.options.camera = camera;
-    seen.push_back(FrameMaker(studio).Make(20));
+    inputs.options.camera = camera;
+    seen.push_back(FrameMaker(inputs).Make(20));
   }
-  const Eigen::Isometry3d from_camera_0 = FrameMaker(studio).FromCamera0().at(1);
+  const Eigen::Isometry3d from_camera_0 = FrameMaker(inputs).FromCamera0().at(1);
   ASSERT_EQ(seen[1].bodies.size(), 2u);
   for (size_t b = 0; b < 2; ++b) {
     EXPECT_EQ(seen[1].bodies[b].id, seen[0].bodies[b].id);

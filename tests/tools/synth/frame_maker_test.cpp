@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "recon/motion/mocap.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/shard_internal.h"
 
 namespace ossa::tools {
@@ -42,8 +42,8 @@ class Frames : public ::testing::TestWithParam<Case> {
     options.seed = seed;
     c.set(options);
     static const recon::BodyModel body = LoadFetchedBody();
-    const FrameStudio studio(body, Bank(), options);
-    return FrameMaker(studio).Make(index);
+    const FrameInputs inputs(body, Bank(), options);
+    return FrameMaker(inputs).Make(index);
   }
 };
 

@@ -1,4 +1,4 @@
-// What is worn, what stands about, postures nobody was recorded in.
+// Accessories, distractors, wheelchairs and crutches, random postures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,26 +6,27 @@
 
 #include "recon/body/clothing.h"
 #include "recon/body/standard_body.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/accessories.h"
+#include "tools/synth/clothed_body.h"
+#include "tools/synth/distractors.h"
+#include "tools/synth/interaction.h"
 #include "tools/synth/mobility_aids.h"
-#include "tools/synth/nobodies.h"
 #include "tools/synth/random_posture.h"
-#include "tools/synth/staging.h"
-#include "tools/synth/worn.h"
 
 namespace ossa::tools {
 namespace {
 
 using recon::Joint;
 
-TEST(Worn, AHatIsTheUpperHeadsLeftAndRightHalfAndABagIsAnObject) {
+TEST(Accessories, AHatIsTheUpperHeadsLeftAndRightHalfAndABagIsAnObject) {
   recon::RigPose pose;
   pose.root_m = recon::StandardRigRest().head_m[0];
   const recon::Posture joints = recon::StandardPosture(pose);
-  Worn worn;
-  worn.hat = Worn::Hat::kBrimmed;
-  worn.bag = Worn::Bag::kRucksack;
-  const auto props = WornProps(worn, pose, joints, 1.66, Eigen::Isometry3d::Identity(), 2);
+  Accessories accessories;
+  accessories.hat = Accessories::Hat::kBrimmed;
+  accessories.bag = Accessories::Bag::kRucksack;
+  const auto props =
+      AccessoryProps(accessories, pose, joints, 1.66, Eigen::Isometry3d::Identity(), 2);
   ASSERT_EQ(props.size(), 3u);
   const double middle_m = joints[Joint::kHead].x();
   for (const auto& p : props[0].mesh_in_cam.vertices_m) EXPECT_GE(p.x(), middle_m - 1e-5);
@@ -45,7 +46,7 @@ TEST(Worn, AHatIsTheUpperHeadsLeftAndRightHalfAndABagIsAnObject) {
 TEST(Nobodies, AreBackgroundAndLeaveThePersonsPlaceFree) {
   for (uint64_t seed = 0; seed < 30; ++seed) {
     Random random(seed, 1);
-    const auto props = SampleNobodies(Eigen::Isometry3d::Identity(), random);
+    const auto props = SampleDistractors(Eigen::Isometry3d::Identity(), random);
     EXPECT_GE(props.size(), 2u);
     for (const Prop& prop : props) {
       EXPECT_FALSE(prop.counts_as_other);
@@ -100,14 +101,14 @@ TEST(Wheelchair, SeatsWhoStoodAndHasASeatWheelsAndFootplatesUnderThem) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed, 1);
     recon::RigPose pose = Standing();
-    ASSERT_EQ(Arrange(Staging::kWheelchair, &pose, random), Staging::kWheelchair);
+    ASSERT_EQ(ArrangeArms(Interaction::kWheelchair, &pose, random), Interaction::kWheelchair);
     const recon::Posture joints = recon::StandardPosture(pose);
     EXPECT_LT(std::abs(joints[Joint::kKneeLeft].y() - joints[Joint::kHipLeft].y()), 0.12);
     EXPECT_GT(joints[Joint::kKneeLeft].z() - joints[Joint::kHipLeft].z(), 0.3);
     EXPECT_NEAR(std::min(joints[Joint::kAnkleLeft].y(), joints[Joint::kAnkleRight].y()), 0.08,
                 1e-9);
     const auto props =
-        StagedProps(Staging::kWheelchair, joints, Eigen::Isometry3d::Identity(), random);
+        InteractionProps(Interaction::kWheelchair, joints, Eigen::Isometry3d::Identity(), random);
     ASSERT_EQ(props.size(), 1U);
     EXPECT_EQ(props[0].part, recon::kOtherPart);
     EXPECT_TRUE(props[0].counts_as_other);
@@ -132,10 +133,10 @@ TEST(Crutches, ReachFromTheFloorToTheHandsThatHoldThem) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed, 1);
     recon::RigPose pose = Standing();
-    ASSERT_EQ(Arrange(Staging::kCrutches, &pose, random), Staging::kCrutches);
+    ASSERT_EQ(ArrangeArms(Interaction::kCrutches, &pose, random), Interaction::kCrutches);
     const recon::Posture joints = recon::StandardPosture(pose);
     const auto props =
-        StagedProps(Staging::kCrutches, joints, Eigen::Isometry3d::Identity(), random);
+        InteractionProps(Interaction::kCrutches, joints, Eigen::Isometry3d::Identity(), random);
     ASSERT_FALSE(props.empty());
     two += props.size() == 2 ? 1 : 0;
     for (const Prop& prop : props) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "depth/render/shapes.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/view_sampler.h"
 
 namespace ossa::tools {

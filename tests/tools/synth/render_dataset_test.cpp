@@ -10,7 +10,7 @@
 #include "recon/motion/mocap.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 
 namespace ossa::tools {
 namespace {
@@ -39,7 +39,7 @@ std::string Bytes(const fs::path& path) {
 TEST(RenderDataset, GoesOnWhereItWasStoppedWithTheSameBytes) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
-  const FrameStudio studio(LoadFetchedBody(), MakePoseBank(recon::LoadMocap({"authored-floor"})),
+  const FrameInputs inputs(LoadFetchedBody(), MakePoseBank(recon::LoadMocap({"authored-floor"})),
                            EverythingAtOnce());
   RenderJob job;
   job.frames = 80;  // two shards
@@ -48,16 +48,16 @@ TEST(RenderDataset, GoesOnWhereItWasStoppedWithTheSameBytes) {
   job.command = "test";
   job.threads = 2;
   job.out = folder / "once";
-  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
-  FinishDataset(studio, job);
+  ASSERT_EQ(RenderShare(inputs, job), RenderEnd::kDone);
+  FinishDataset(inputs, job);
   job.threads = 1;
   job.out = folder / "twice";
   std::atomic<int> asked = 0;
   job.interrupted = [&] { return ++asked > 70; };
-  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kInterrupted);
+  ASSERT_EQ(RenderShare(inputs, job), RenderEnd::kInterrupted);
   job.interrupted = [] { return false; };
-  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
-  FinishDataset(studio, job);
+  ASSERT_EQ(RenderShare(inputs, job), RenderEnd::kDone);
+  FinishDataset(inputs, job);
   for (const char* file : {"manifest.json", "shards/000000.shard", "shards/000001.shard"}) {
     EXPECT_FALSE(Bytes(fs::path(folder / "once") / file).empty());
     EXPECT_EQ(Bytes(fs::path(folder / "once") / file), Bytes(fs::path(folder / "twice") / file));
@@ -73,9 +73,9 @@ TEST(RenderDataset, DoesNotMixFramesOfTwoMotions) {
   options.height = 48;
   auto poses = MakePoseBank(recon::LoadMocap({"authored-floor"}));
   poses.resize(3);
-  const FrameStudio before(LoadFetchedBody(), poses, options);
+  const FrameInputs before(LoadFetchedBody(), poses, options);
   poses[1].root_m.x() += 0.1;
-  const FrameStudio after(LoadFetchedBody(), poses, options);
+  const FrameInputs after(LoadFetchedBody(), poses, options);
   RenderJob job;
   job.frames = 2;
   job.command = "test";
@@ -109,24 +109,24 @@ TEST(RenderDataset, KeepsNothingThatAKilledRunLeft) {
   FrameOptions options;
   options.width = 64;
   options.height = 48;
-  const FrameStudio studio(LoadFetchedBody(), MakePoseBank(recon::LoadMocap({"authored-floor"})),
+  const FrameInputs inputs(LoadFetchedBody(), MakePoseBank(recon::LoadMocap({"authored-floor"})),
                            options);
   RenderJob job;
   job.frames = 2;
   job.command = "test";
   job.out = folder / "set";
-  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
+  ASSERT_EQ(RenderShare(inputs, job), RenderEnd::kDone);
   std::ofstream(folder / "set/depth/000001.png.partial-0123456789ab") << "half";
-  FinishDataset(studio, job);
+  FinishDataset(inputs, job);
   EXPECT_FALSE(fs::exists(folder / "set/depth/000001.png.partial-0123456789ab"));
   EXPECT_TRUE(fs::exists(folder / "set/depth/000001.png"));
   job.command = "another";
-  test::ExpectRefused([&] { RenderShare(studio, job); },
+  test::ExpectRefused([&] { RenderShare(inputs, job); },
                       "another data set is there: expected another or an empty folder, found test");
   job.command = "test";
   fs::create_directory(folder / "set/.work");
-  ASSERT_EQ(RenderShare(studio, job), RenderEnd::kDone);
-  FinishDataset(studio, job);
+  ASSERT_EQ(RenderShare(inputs, job), RenderEnd::kDone);
+  FinishDataset(inputs, job);
   EXPECT_FALSE(fs::exists(folder / "set/.work"));
 }
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "recon/motion/mocap.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/frame_maker.h"
 
 namespace ossa::tools {
@@ -25,8 +25,8 @@ class Sequence : public ::testing::TestWithParam<Occluders> {
     options.background = Background::kRoom;
     options.occluders = occluders;
     options.seed = seed;
-    const FrameStudio studio(LoadFetchedBody(), SequencePoses(clips, 60, seed), options);
-    return FrameMaker(studio).Make(index);
+    const FrameInputs inputs(LoadFetchedBody(), SequencePoses(clips, 60, seed), options);
+    return FrameMaker(inputs).Make(index);
   }
 };
 

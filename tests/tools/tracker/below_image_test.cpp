@@ -6,7 +6,7 @@
 
 #include "depth/image/depth_frame.h"
 #include "tests/tools/tracker/tracked_scenes.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/synth/sequence_poses.h"
 
@@ -72,10 +72,10 @@ TEST(BelowTheImage, AreHandsThatItsBorderCutsOff) {
   options.split = tools::Split::kTest;
   options.variation.random_arm_share = 0.0;
   options.seed = 9;
-  const tools::FrameStudio studio(tools::LoadFetchedBody(),
+  const tools::FrameInputs inputs(tools::LoadFetchedBody(),
                                   tools::SequencePoses(AuthoredMotion(), kPostures, options.seed),
                                   options);
-  tools::FrameMaker maker(studio);
+  tools::FrameMaker maker(inputs);
   Tracker tracker;
   Hands front, behind;
   for (int i = 0; i < kImages; ++i) {

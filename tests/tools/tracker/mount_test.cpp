@@ -13,7 +13,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/tracker/tracked_scenes.h"
 #include "tools/people/detect_people.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/synth/sequence_poses.h"
 #include "tools/tracker/mount_finder_internal.h"
@@ -55,9 +55,9 @@ std::vector<LabelledFrame> RenderFrames(const Place& place, int poses, int image
   if (place.is_clip) options.sensors = {depth::SensorKind::kXtion};
   options.background = place.background;
   options.seed = place.seed;
-  const tools::FrameStudio studio(
+  const tools::FrameInputs inputs(
       tools::LoadFetchedBody(), tools::SequencePoses(AuthoredMotion(), poses, place.seed), options);
-  tools::FrameMaker maker(studio);
+  tools::FrameMaker maker(inputs);
   std::vector<LabelledFrame> made;
   for (int i = 0; i < images; ++i) made.push_back(maker.Make(i));
   return made;

@@ -9,7 +9,7 @@
 #include "recon/motion/authored.h"
 #include "tests/tools/tracker/played_scenes.h"
 #include "tests/tools/tracker/tracked_scenes.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 
 namespace ossa::tracker {
 namespace {
@@ -33,10 +33,10 @@ struct Part {
   std::function<RigPose(double time_s)> motion;
 };
 
-/// A room with people, seen frame by frame.
-class Studio {
+/// Depth images of moving people in a room.
+class RenderedScene {
  public:
-  Studio(std::vector<Part> parts, const std::vector<depth::TriangleMesh>& furniture)
+  RenderedScene(std::vector<Part> parts, const std::vector<depth::TriangleMesh>& furniture)
       : parts_(std::move(parts)), model_(tools::LoadFetchedBody()), wardrobe_(model_) {
     const auto add = [&](const depth::TriangleMesh& mesh) {
       renderer_.AddMesh(depth::Moved(mesh, Eigen::Affine3f(from_world_.cast<float>())), false);
@@ -46,24 +46,24 @@ class Studio {
     add(depth::Moved(depth::MakeRoom({5.0F, 2.6F, 7.4F}), ahead));
     for (const auto& mesh : furniture) add(mesh);
     for (const Part& part : parts_) {
-      actors_.emplace_back(model_, wardrobe_, part.shape, recon::Clothing{});
-      actors_.back().Enter(renderer_);
+      bodies_.emplace_back(model_, wardrobe_, part.shape, recon::Clothing{});
+      bodies_.back().AddTo(renderer_);
     }
   }
 
-  /// Where a person is at a time, camera space.
-  recon::Posture Take(size_t person, double time_s) {
+  /// Joints of a person at a time, camera space, metres.
+  recon::Posture PoseOf(size_t person, double time_s) {
     RigPose pose = parts_[person].motion(time_s);
-    pose.root_m += parts_[person].place_m / actors_[person].body().root_scale;
-    return actors_[person].Take(pose, from_world_);
+    pose.root_m += parts_[person].place_m / bodies_[person].shape().root_scale;
+    return bodies_[person].Pose(pose, from_world_);
   }
   depth::DepthFrame RenderFrame(int frame) {
-    for (size_t k = 0; k < actors_.size(); ++k) {
-      Take(k, frame / 30.0);
-      actors_[k].Show(renderer_);
+    for (size_t k = 0; k < bodies_.size(); ++k) {
+      PoseOf(k, frame / 30.0);
+      bodies_[k].UpdateMesh(renderer_);
     }
-    depth::DepthFrame shot = tools::RenderActors(renderer_, depth::KinectV1Camera(320, 240), model_,
-                                                 actors_, static_cast<uint64_t>(frame) + 1)
+    depth::DepthFrame shot = tools::RenderBodies(renderer_, depth::KinectV1Camera(320, 240), model_,
+                                                 bodies_, static_cast<uint64_t>(frame) + 1)
                                  .depth;
     shot.index = frame;
     shot.time_s = frame / 30.0;
@@ -76,7 +76,7 @@ class Studio {
   recon::Wardrobe wardrobe_;
   Eigen::Isometry3d from_world_ = tools::LookAt(kCamera_m, {0.0, kEye_m, 0.0});
   depth::Renderer renderer_;
-  std::vector<tools::Actor> actors_;
+  std::vector<tools::ClothedBody> bodies_;
 };
 
 /// A cupboard before the legs of who stands there.
@@ -95,14 +95,15 @@ struct Played {
 
 using Watcher = std::function<void(const BodyFrame&, Scene&)>;
 
-Played Track(Studio& studio, const SceneOptions& scene, int frames, const Watcher& watch = {}) {
+Played Track(RenderedScene& rendered, const SceneOptions& scene, int frames,
+             const Watcher& watch = {}) {
   TrackerOptions options = PlainOptions();
   options.scene = scene;
   Tracker tracker(options);
   Played played;
   std::map<int, recon::Posture> before;
   for (int f = 0; f < frames; ++f) {
-    const BodyFrame frame = tracker.Track(studio.RenderFrame(f));
+    const BodyFrame frame = tracker.Track(rendered.RenderFrame(f));
     played.seen.Update(*tracker.scene());
     for (const SceneObjectState& object : frame.objects) {
       EXPECT_TRUE(object.position_m.allFinite());
@@ -167,11 +168,11 @@ struct Grip {
   double apart_m() const { return (left_m - right_m).norm(); }
 };
 
-Grip LowestGrip(Studio& studio, int frames) {
+Grip LowestGrip(RenderedScene& rendered, int frames) {
   Grip lowest;
   double lowest_m = 10.0;
   for (int f = 0; f < frames; ++f) {
-    const recon::Posture joints = studio.Take(0, f / 30.0);
+    const recon::Posture joints = rendered.PoseOf(0, f / 30.0);
     const double sum_m = joints.position_m[kLeft].y() + joints.position_m[kRight].y();
     if (sum_m >= lowest_m) continue;
     lowest_m = sum_m;
@@ -216,13 +217,13 @@ Lift PlayLift(const recon::MotionClip& clip, const recon::BodyShape& shape) {
   const auto motion = [&](double t) {
     return clip.frames[std::min(static_cast<size_t>(30.0 * t + 0.5), clip.frames.size() - 1)];
   };
-  Studio studio({{shape, Vector3d::Zero(), motion}}, {});
+  RenderedScene rendered({{shape, Vector3d::Zero(), motion}}, {});
   const auto frames = static_cast<int>(clip.frames.size());
-  const Grip grip = LowestGrip(studio, frames);
+  const Grip grip = LowestGrip(rendered, frames);
   const SceneOptions scene = BoxIn(grip);
   Lift lift;
   lift.start_m = scene.objects.back().body.position_m.y();
-  lift.played = Track(studio, scene, frames, [&](const BodyFrame& frame, Scene&) {
+  lift.played = Track(rendered, scene, frames, [&](const BodyFrame& frame, Scene&) {
     if (frame.objects.empty()) return;
     const SceneObjectState& box = frame.objects.back();
     if (!box.held_by.empty()) {
@@ -292,10 +293,10 @@ struct Throw {
   int from = 0, to = 0;
 };
 
-Throw PlayThrow(Studio& studio) {
-  const Vector3d hand_m = studio.Take(0, 0.0).position_m[kRight];
+Throw PlayThrow(RenderedScene& rendered) {
+  const Vector3d hand_m = rendered.PoseOf(0, 0.0).position_m[kRight];
   Throw made;
-  made.played = Track(studio, BallAt(hand_m), 85, [&](const BodyFrame&, Scene& scene) {
+  made.played = Track(rendered, BallAt(hand_m), 85, [&](const BodyFrame&, Scene& scene) {
     for (const SceneEvent& event : scene.events()) {
       if (event.kind == SceneEvent::Kind::kThrown && made.from == 0) made.from = event.body;
       if (event.kind == SceneEvent::Kind::kGrabbed && made.from != 0 && made.to == 0) {
@@ -308,10 +309,10 @@ Throw PlayThrow(Studio& studio) {
 
 TEST(RenderedScene, OneThrowsABallToAnotherOfAnotherSizeBehindACupboard) {
   OSSA_NEEDS_MODEL_AND_BODY();
-  Studio down(Throwers(Tall(), Small(), 2.0, 0.3), {Cupboard(-1.0)});
-  Studio up(Throwers(Small(), Tall(), 1.15, -0.3), {Cupboard(-0.575)});
-  for (Studio* const studio : {&down, &up}) {
-    const Throw made = PlayThrow(*studio);
+  RenderedScene down(Throwers(Tall(), Small(), 2.0, 0.3), {Cupboard(-1.0)});
+  RenderedScene up(Throwers(Small(), Tall(), 1.15, -0.3), {Cupboard(-0.575)});
+  for (RenderedScene* const rendered : {&down, &up}) {
+    const Throw made = PlayThrow(*rendered);
     ExpectSound(made.played);
     EXPECT_NE(made.from, 0);
     EXPECT_NE(made.to, 0);
@@ -327,15 +328,16 @@ TEST(RenderedScene, AChildWhoseLegsAreHiddenDodgesABall) {
   SceneObject ball = test::MakeBall(0.2, 0.2);
   ball.origin = SceneObject::Origin::kPerson;
   for (const bool dodges : {false, true}) {
-    Studio studio({{Small(), Vector3d::Zero(), [](double) { return ArmsLifted(-0.4, -0.4); }}},
-                  {Cupboard(0.0)});
-    const recon::Posture truth = studio.Take(0, 0.0);
+    RenderedScene rendered(
+        {{Small(), Vector3d::Zero(), [](double) { return ArmsLifted(-0.4, -0.4); }}},
+        {Cupboard(0.0)});
+    const recon::Posture truth = rendered.PoseOf(0, 0.0);
     ball.body.position_m = {0.0, HeightAboveFloor(truth[recon::Joint::kHead]), 2.0};
     ball.body.velocity_m_s = {0.0, 0.4 * 0.5 * 9.81, -2.0 / 0.4};  // at the head in 0.4 s
     scene.objects = {ball};
     if (dodges) scene.dodge = DodgeRule{};
     int hits = 0;
-    const Played played = Track(studio, scene, 45, [&](const BodyFrame&, Scene& world) {
+    const Played played = Track(rendered, scene, 45, [&](const BodyFrame&, Scene& world) {
       for (const physics::Strike& strike : world.world().Contacts().struck) {
         hits += strike.bone <= recon::Index(recon::Joint::kHead) ? 1 : 0;
       }

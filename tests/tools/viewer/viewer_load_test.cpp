@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "tests/support/sanitized.h"
-#include "tests/tools/viewer/example_moments.h"
+#include "tests/tools/viewer/example_display_frames.h"
 #include "tests/tools/viewer/web_client.h"
 
 namespace ossa::viewer {
@@ -99,11 +99,11 @@ TEST(Viewer, FreesTheMemoryOfAFloodOfRequests) {
 // A client that sends requests and never reads: its buffer is full, others are still served.
 TEST(Viewer, ServesOtherPagesWhileOneReadsNothing) {
   Viewer viewer(AnyPort());
-  viewer.Show(ExampleMoment(0));
+  viewer.Show(ExampleDisplayFrame(0));
   PageClient stuck(viewer.port()), page(viewer.port());
   for (int i = 0; i < 50; ++i) stuck.Say(R"({"after":-1})");
   for (int f = 1; f < 20; ++f) {
-    viewer.Show(ExampleMoment(f));
+    viewer.Show(ExampleDisplayFrame(f));
     EXPECT_EQ(HeaderOf(page.Ask(R"({"after":-1})"))["number"], f);
   }
 }
@@ -120,7 +120,7 @@ TEST(Viewer, AcceptsMomentsWhileItAnswersRequests) {
     }
   });
   for (int f = 0; f < 30; ++f) {
-    viewer.Show(ExampleMoment(f));
+    viewer.Show(ExampleDisplayFrame(f));
     if (f == 15) viewer.Clear();
     std::this_thread::sleep_for(milliseconds(5));
   }

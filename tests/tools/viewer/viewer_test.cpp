@@ -14,7 +14,7 @@
 #include "depth/sensor/frame_source.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/tools/viewer/example_moments.h"
+#include "tests/tools/viewer/example_display_frames.h"
 #include "tests/tools/viewer/web_client.h"
 #include "tools/viewer/playback_clock.h"
 
@@ -107,7 +107,7 @@ TEST(Viewer, RefusesAWebSocketOfAnotherOrigin) {
 
 TEST(Viewer, SendsEveryFrameOfARecordingWithItsOwnSkeletons) {
   Viewer viewer(AnyPort(true));
-  for (int f = 0; f < 12; ++f) viewer.Show(ExampleMoment(f));
+  for (int f = 0; f < 12; ++f) viewer.Show(ExampleDisplayFrame(f));
   viewer.Complete();
   PageClient page(viewer.port());
   for (const int f : {7, 0, 11, 3}) {
@@ -127,7 +127,7 @@ TEST(Viewer, SendsEveryFrameOfARecordingWithItsOwnSkeletons) {
 // To a phone every second pixel is sent.
 TEST(Viewer, SendsReducedImagesOnRequest) {
   Viewer viewer(AnyPort());
-  viewer.Show(ExampleMoment(5));
+  viewer.Show(ExampleDisplayFrame(5));
   PageClient page(viewer.port());
   const std::string message = page.Ask(R"({"after":-1,"step":2})");
   EXPECT_EQ(HeaderOf(message)["width"], 16);
@@ -142,7 +142,7 @@ TEST(Viewer, LimitsThePictureRateToThatOfTheCamera) {
   Viewer viewer(AnyPort());
   std::atomic<bool> done = false;
   std::thread tracker([&] {
-    for (int f = 0; !done; ++f) viewer.Show(ExampleMoment(f));
+    for (int f = 0; !done; ++f) viewer.Show(ExampleDisplayFrame(f));
   });
   const auto begin = std::chrono::steady_clock::now();
   PageClient page(viewer.port());
@@ -161,13 +161,13 @@ TEST(Viewer, LimitsThePictureRateToThatOfTheCamera) {
 
 TEST(Viewer, SendsTheNewestFrameOfACameraOnce) {
   Viewer viewer(AnyPort());
-  viewer.Show(ExampleMoment(0));
-  viewer.Show(ExampleMoment(1));
+  viewer.Show(ExampleDisplayFrame(0));
+  viewer.Show(ExampleDisplayFrame(1));
   PageClient page(viewer.port());
   EXPECT_EQ(HeaderOf(page.Ask(R"({"after":-1})"))["number"], 1);
   page.Say(R"({"after":1})");
   std::this_thread::sleep_for(milliseconds(50));
-  viewer.Show(ExampleMoment(2));
+  viewer.Show(ExampleDisplayFrame(2));
   EXPECT_EQ(HeaderOf(page.Hear())["layers"]["final"]["frame"], 2);
   const auto state = nlohmann::json::parse(page.Ask(R"({"after":2})"));
   EXPECT_EQ(state["frames"], 3) << "nothing came within a second";
@@ -214,9 +214,9 @@ TEST(Viewer, RecordsOnRequest) {
   Viewer viewer(options);
   PageClient page(viewer.port());
   page.Ask(R"({"record":true})");
-  for (int f = 0; f < 3; ++f) viewer.Show(ExampleMoment(f));
+  for (int f = 0; f < 3; ++f) viewer.Show(ExampleDisplayFrame(f));
   const auto state = nlohmann::json::parse(page.Ask(R"({"record":false})"));
-  viewer.Show(ExampleMoment(3));
+  viewer.Show(ExampleDisplayFrame(3));
   const std::string name = state["recording"]["said"];
   const auto source = depth::OpenSource((folder.path() / name).string());
   EXPECT_EQ(source->frame_count(), 3);
@@ -225,7 +225,7 @@ TEST(Viewer, RecordsOnRequest) {
 
 TEST(Viewer, ExportsASpanInEveryFormat) {
   Viewer viewer(AnyPort(true));
-  for (int f = 0; f < 9; ++f) viewer.Show(ExampleMoment(f));
+  for (int f = 0; f < 9; ++f) viewer.Show(ExampleDisplayFrame(f));
   const std::string lines = Get(viewer.port(), "/export?format=jsonl&from=2&to=4");
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3) << lines;
   EXPECT_EQ(nlohmann::json::parse(lines.substr(0, lines.find('\n')))["frame"], 2);
@@ -241,10 +241,10 @@ TEST(Viewer, ExportsASpanInEveryFormat) {
 
 TEST(Viewer, SendsSolidsWithTheirFrame) {
   Viewer viewer(AnyPort(true));
-  Moment moment = ExampleMoment(0);
-  moment.solids.push_back(
+  DisplayFrame display = ExampleDisplayFrame(0);
+  display.solids.push_back(
       {.shape = physics::Shape::kBall, .size_m = {0.5, 0.0, 0.0}, .position_m = {1.0, 0.25, 3.0}});
-  viewer.Show(std::move(moment));
+  viewer.Show(std::move(display));
   PageClient page(viewer.port());
   const auto solid = HeaderOf(page.Ask("{\"frame\":0}"))["solids"][0];
   EXPECT_EQ(solid["shape"], "ball");
@@ -272,7 +272,7 @@ TEST(Viewer, PlacesACapsuleAlongItsBone) {
 TEST(Viewer, SendsOverlaysLineByLine) {
   ViewerOptions options = AnyPort(true);
   recon::SkeletonSequence sequence;
-  for (int f = 0; f < 3; ++f) sequence.frames.push_back(ExampleMoment(f).layers[0]);
+  for (int f = 0; f < 3; ++f) sequence.frames.push_back(ExampleDisplayFrame(f).layers[0]);
   options.overlays.push_back({"truth", sequence});
   const Viewer viewer(options);
   const std::string lines = Get(viewer.port(), "/lines?layer=0&from=1");

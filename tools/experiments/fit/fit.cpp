@@ -7,7 +7,7 @@
 #include "depth/base/error.h"
 #include "depth/base/statistics.h"
 #include "tools/experiments/experiments_internal.h"
-#include "tools/experiments/fit/watched_people_internal.h"
+#include "tools/experiments/fit/track_person_internal.h"
 #include "tools/experiments/real/real_evaluation_internal.h"
 #include "tools/experiments/sdk/method_runs.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "tools/experiments/fit/watched_people_internal.h"
+#include "tools/experiments/fit/track_person_internal.h"
 
 namespace ossa::tools {
 namespace {
@@ -97,7 +97,7 @@ void AddJointErrors(const Trial& trial, const std::vector<Outcome>& outcomes, Ta
 
 std::vector<Table> FitPeople(ExperimentContext& context) {
   const FitSettings settings = ReadFitSettings(context.parameters);
-  const PeopleFilm film(context, settings.people_per_height, settings.train_shapes);
+  const PersonRenderer renderer(context, settings.people_per_height, settings.train_shapes);
   const tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table stature{.title = "Stature of rendered people after 3 s",
                 .columns = {"what", "stature", "people", "off, median, cm", "mean, cm",
@@ -114,12 +114,12 @@ std::vector<Table> FitPeople(ExperimentContext& context) {
                    "Neighbouring frames are wrong alike: shares are of frames."};
   for (const Trial& trial : {Trial{"as they are", false}, Trial{"loose clothes", true}}) {
     std::vector<Outcome> outcomes;
-    for (const FilmedPerson& person : film.people()) {
+    for (const RenderedPerson& person : renderer.people()) {
       context.ThrowIfInterrupted();
-      outcomes.push_back(TrackPerson(person, film.RenderClip(person, trial.loose), options));
+      outcomes.push_back(TrackPerson(person, renderer.RenderClip(person, trial.loose), options));
       if (context.progress) {
         context.progress(static_cast<double>(outcomes.size()),
-                         static_cast<double>(film.people().size()), trial.name);
+                         static_cast<double>(renderer.people().size()), trial.name);
       }
     }
     AddStatures(trial, outcomes, !trial.loose, stature);

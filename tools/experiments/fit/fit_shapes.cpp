@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tools/experiments/fit/watched_people_internal.h"
+#include "tools/experiments/fit/track_person_internal.h"
 
 namespace ossa::tools {
 namespace {
@@ -45,7 +45,7 @@ void AddRow(const Wrong& wrong, const std::vector<Outcome>& outcomes, Table& tab
 
 std::vector<Table> FitWrongShapes(ExperimentContext& context) {
   const FitSettings settings = ReadFitSettings(context.parameters);
-  const PeopleFilm film(context, settings.shape_people_per_height, settings.train_shapes);
+  const PersonRenderer renderer(context, settings.shape_people_per_height, settings.train_shapes);
   const tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table table{.title = "Rendered people with a person file, their own and others'",
               .columns = {"file of", "people", "fitted joints off, cm", "final joints off, cm",
@@ -59,9 +59,9 @@ std::vector<Table> FitWrongShapes(ExperimentContext& context) {
                                      {"5 cm taller", 0.05},   {"10 cm taller", 0.1},
                                      {"10 cm shorter", -0.1}, {"30 cm taller", 0.3}};
   std::vector<std::vector<Outcome>> outcomes(wrongs.size());
-  for (const FilmedPerson& person : film.people()) {
+  for (const RenderedPerson& person : renderer.people()) {
     context.ThrowIfInterrupted();
-    const std::vector<LabelledFrame> frames = film.RenderClip(person, false);
+    const std::vector<LabelledFrame> frames = renderer.RenderClip(person, false);
     for (size_t k = 0; k < wrongs.size(); ++k) {
       tracker::TrackerOptions with = options;
       const auto& known = k > 0 ? outcomes[0].back().shape : std::nullopt;
@@ -70,7 +70,7 @@ std::vector<Table> FitWrongShapes(ExperimentContext& context) {
     }
     if (context.progress) {
       context.progress(static_cast<double>(outcomes[0].size()),
-                       static_cast<double>(film.people().size()), "wrong shapes");
+                       static_cast<double>(renderer.people().size()), "wrong shapes");
     }
   }
   for (size_t k = 0; k < wrongs.size(); ++k) AddRow(wrongs[k], outcomes[k], table);

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "depth/base/random.h"
-#include "tools/experiments/fit/watched_people_internal.h"
+#include "tools/experiments/fit/track_person_internal.h"
 
 namespace ossa::tools {
 namespace {
@@ -54,7 +54,7 @@ Still StillOf(const LabelledFrame& frame, const tracker::BodyFrame& seen,
   return still;
 }
 
-// Three of each film, a second apart.
+// Three of each sequence, a second apart.
 void AddStills(const std::vector<LabelledFrame>& frames, const tracker::TrackerOptions& options,
                std::vector<Still>& stills) {
   constexpr size_t kFirst = 15, kApart = 30;  // by hand, frames
@@ -182,7 +182,7 @@ void AddRows(const std::string& clothes, const std::vector<Still>& stills,
 
 std::vector<Table> FitStarts(ExperimentContext& context) {
   const FitSettings settings = ReadFitSettings(context.parameters);
-  const PeopleFilm film(context, settings.start_people_per_height, settings.train_shapes);
+  const PersonRenderer renderer(context, settings.start_people_per_height, settings.train_shapes);
   tracker::TrackerOptions options = TrackerOptionsOf(context);
   options.keep_parts = true;
   Table table{
@@ -197,9 +197,9 @@ std::vector<Table> FitStarts(ExperimentContext& context) {
           "sure joints that were kept."};
   for (const bool loose : {false, true}) {
     std::vector<Still> stills;
-    for (const FilmedPerson& person : film.people()) {
+    for (const RenderedPerson& person : renderer.people()) {
       context.ThrowIfInterrupted();
-      AddStills(film.RenderClip(person, loose), options, stills);
+      AddStills(renderer.RenderClip(person, loose), options, stills);
     }
     AddRows(loose ? "loose" : "as they are", stills, *options.models->surface, context.seed, table);
   }

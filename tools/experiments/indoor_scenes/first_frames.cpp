@@ -11,8 +11,8 @@
 #include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/indoor_scenes/first_frames_internal.h"
-#include "tools/experiments/stage/jobs.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/experiments/simulation/jobs.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/tracker/tracker.h"
 
@@ -29,7 +29,7 @@ struct Row {
   std::vector<double> error_m{};  // mean over the final joints of each person who was found
 };
 
-struct Cast {
+struct FirstFrameInputs {
   const recon::BodyModel& model;
   const std::vector<recon::RigPose>& poses;
   const tracker::TrackerOptions& how;
@@ -63,12 +63,12 @@ void AddImage(const LabelledFrame& frame, const tracker::BodyFrame& answer, Row&
   if (nearest_m) row.error_m.push_back(*nearest_m);
 }
 
-void Play(const Cast& cast, ExperimentContext& context, Row& row) {
+void EvaluateRow(const FirstFrameInputs& inputs, ExperimentContext& context, Row& row) {
   const FrameOptions options = FirstFrameOptions(row.kind, row.where, Split::kTest, context.seed);
-  const FrameStudio studio(cast.model, cast.poses, options);
-  FrameMaker maker(studio);
-  tracker::Tracker tracker(cast.how);
-  for (int i = 0; i < cast.images; ++i) {
+  const FrameInputs frame_inputs(inputs.model, inputs.poses, options);
+  FrameMaker maker(frame_inputs);
+  tracker::Tracker tracker(inputs.how);
+  for (int i = 0; i < inputs.images; ++i) {
     context.ThrowIfInterrupted();
     const LabelledFrame frame = Uncropped(maker.Make(i), MakeCamera(options));
     tracker.Reset();  // each image is a first one
@@ -81,7 +81,7 @@ std::string PerCent(int part, int whole) {
 }
 
 // Each pair of a background and an occluder, in the order of the tables.
-std::vector<Row> EvaluateRows(ExperimentContext& context, const Cast& cast) {
+std::vector<Row> EvaluateRows(ExperimentContext& context, const FirstFrameInputs& inputs) {
   std::vector<Row> rows;
   for (const FirstFramePlace& where : kFirstFramePlaces) {
     for (const FirstFrameKind& kind : kFirstFrameKinds)
@@ -90,7 +90,7 @@ std::vector<Row> EvaluateRows(ExperimentContext& context, const Cast& cast) {
   std::mutex mutex;
   size_t done = 0;
   RunJobs(rows.size(), context.threads, [&](size_t i) {
-    Play(cast, context, rows[i]);
+    EvaluateRow(inputs, context, rows[i]);
     const std::lock_guard lock(mutex);
     ++done;
     if (!context.progress) return;

@@ -14,7 +14,7 @@
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/experiments/indoor_scenes/person_weights_internal.h"
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 #include "tools/people/feature_collector.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/tracker/shipped.h"
@@ -78,9 +78,9 @@ class Gatherer {
         UnderCeilings(seed + 100 * k, examples[k]);
       } else {
         const int width = k % 2 ? 640 : 320;
-        const IndoorCast cast{model, wardrobe, clips_, split_, width, width * 3 / 4, 90};
-        IndoorScenes(cast, seed + 100 * k, examples[k]);
-        BehindSeats(cast, seed + 100 * k + 50, examples[k]);
+        const IndoorSceneInputs inputs{model, wardrobe, clips_, split_, width, width * 3 / 4, 90};
+        AddIndoorScenes(inputs, seed + 100 * k, examples[k]);
+        AddSofaScenes(inputs, seed + 100 * k + 50, examples[k]);
         for (const View view : {View::kFront, View::kAny, View::kNear})
           Singles({view, Background::kRoom, seed + k}, poses_, examples[k]);
         for (const View view : {View::kFront, View::kAny})
@@ -95,21 +95,25 @@ class Gatherer {
   }
 
  private:
-  void IndoorScenes(const IndoorCast& cast, uint64_t seed, std::vector<Example>& examples) {
-    for (const IndoorScenario& scenario : IndoorScenarios()) Play(scenario, cast, ++seed, examples);
+  void AddIndoorScenes(const IndoorSceneInputs& inputs, uint64_t seed,
+                       std::vector<Example>& examples) {
+    for (const IndoorScenario& scenario : IndoorScenarios())
+      AddScenario(scenario, inputs, ++seed, examples);
   }
 
   // Head and shoulders alone are rare among the others.
-  void BehindSeats(const IndoorCast& cast, uint64_t seed, std::vector<Example>& examples) {
+  void AddSofaScenes(const IndoorSceneInputs& inputs, uint64_t seed,
+                     std::vector<Example>& examples) {
     constexpr int kSeats = 10;
     const IndoorScenario scenario{"one, sofa before", 1, Furnishing::kSofaBefore};
-    for (int i = 0; i < kSeats; ++i) Play(scenario, cast, ++seed, examples);
+    for (int i = 0; i < kSeats; ++i) AddScenario(scenario, inputs, ++seed, examples);
   }
 
-  void Play(const IndoorScenario& scenario, const IndoorCast& cast, uint64_t seed,
-            std::vector<Example>& examples) {
-    IndoorStage stage(scenario, cast, seed);
-    for (int64_t f = 5; f < stage.size(); f += 20) CollectExamples(stage.RenderFrame(f), examples);
+  void AddScenario(const IndoorScenario& scenario, const IndoorSceneInputs& inputs, uint64_t seed,
+                   std::vector<Example>& examples) {
+    IndoorSceneRenderer renderer(scenario, inputs, seed);
+    for (int64_t f = 5; f < renderer.size(); f += 20)
+      CollectExamples(renderer.RenderFrame(f), examples);
   }
 
   // Rooms of every sort; one in four without shelves and plants.
@@ -138,8 +142,8 @@ class Gatherer {
     options.background = room.background;
     options.people = room.view == View::kNear ? 1 : 2;
     options.seed = room.seed;
-    const FrameStudio studio(LoadFetchedBody(), poses, options);
-    FrameMaker maker(studio);
+    const FrameInputs inputs(LoadFetchedBody(), poses, options);
+    FrameMaker maker(inputs);
     for (int f = 0; f < kFrames; ++f) CollectExamples(maker.Make(8 * f), examples);
   }
 

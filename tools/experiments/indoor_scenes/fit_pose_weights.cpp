@@ -14,10 +14,10 @@
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/indoor_scenes/first_frames_internal.h"
 #include "tools/experiments/indoor_scenes/person_weights_internal.h"
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 #include "tools/people/feature_collector.h"
 #include "tools/people/pose_evidence.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/frame_maker.h"
 #include "tools/tracker/shipped.h"
 
@@ -32,7 +32,7 @@ std::optional<bool> IsPerson(const std::vector<int32_t>& pixels, const LabelledF
   return std::nullopt;
 }
 
-struct Cast {
+struct PoseWeightInputs {
   const recon::BodyModel& model;
   std::vector<recon::RigPose> poses;
   const people::FeatureCollector& collector;
@@ -42,17 +42,18 @@ struct Cast {
   int images;  // of each kind and place
 };
 
-std::vector<LogisticExample> CollectExamples(const Cast& cast, const FirstFrameKind& kind,
+std::vector<LogisticExample> CollectExamples(const PoseWeightInputs& inputs,
+                                             const FirstFrameKind& kind,
                                              const FirstFramePlace& place,
                                              ExperimentContext& context) {
-  const FrameOptions options = FirstFrameOptions(kind, place, cast.split, cast.seed);
-  const FrameStudio studio(cast.model, cast.poses, options);
-  FrameMaker maker(studio);
+  const FrameOptions options = FirstFrameOptions(kind, place, inputs.split, inputs.seed);
+  const FrameInputs frame_inputs(inputs.model, inputs.poses, options);
+  FrameMaker maker(frame_inputs);
   std::vector<LogisticExample> examples;
-  for (int i = 0; i < cast.images; ++i) {
+  for (int i = 0; i < inputs.images; ++i) {
     context.ThrowIfInterrupted();
     const LabelledFrame frame = Uncropped(maker.Make(i), MakeCamera(options));
-    for (const auto& seen : cast.collector.CollectPoses(frame.depth, cast.network)) {
+    for (const auto& seen : inputs.collector.CollectPoses(frame.depth, inputs.network)) {
       const auto person = IsPerson(seen.pixels, frame);
       if (!person) continue;
       const auto terms = people::PoseTerms(seen.forest_score, seen.certainty);
@@ -63,13 +64,13 @@ std::vector<LogisticExample> CollectExamples(const Cast& cast, const FirstFrameK
   return examples;
 }
 
-std::vector<LogisticExample> Gather(const Cast& cast, ExperimentContext& context) {
+std::vector<LogisticExample> Gather(const PoseWeightInputs& inputs, ExperimentContext& context) {
   constexpr size_t kRows = kFirstFrameKinds.size() * kFirstFramePlaces.size();
   std::vector<std::vector<LogisticExample>> rows(kRows);
   std::mutex mutex;
   int done = 0;
   RunJobs(kRows, context.threads, [&](size_t i) {
-    rows[i] = CollectExamples(cast, kFirstFrameKinds[i % kFirstFrameKinds.size()],
+    rows[i] = CollectExamples(inputs, kFirstFrameKinds[i % kFirstFrameKinds.size()],
                               kFirstFramePlaces[i / kFirstFrameKinds.size()], context);
     const std::lock_guard lock(mutex);
     if (context.progress) context.progress(++done, static_cast<double>(kRows), "first frames");

@@ -11,7 +11,7 @@
 #include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 #include "tools/tracker/picture.h"
 
 namespace ossa::tools {
@@ -23,14 +23,15 @@ struct Job {
   int pictures_every;  // frames; 0: none
 };
 
-IndoorScore Play(const IndoorScenario& scenario, const IndoorCast& cast, const Job& job,
-                 const tracker::TrackerOptions& how, const ExperimentContext& context) {
-  IndoorStage stage(scenario, cast, job.seed);
+IndoorScore RunScenario(const IndoorScenario& scenario, const IndoorSceneInputs& inputs,
+                        const Job& job, const tracker::TrackerOptions& how,
+                        const ExperimentContext& context) {
+  IndoorSceneRenderer renderer(scenario, inputs, job.seed);
   tracker::Tracker tracker(how);
   IndoorEvaluator evaluator;
-  for (int64_t f = 0; f < stage.size(); ++f) {
+  for (int64_t f = 0; f < renderer.size(); ++f) {
     context.ThrowIfInterrupted();
-    const LabelledFrame frame = stage.RenderFrame(f);
+    const LabelledFrame frame = renderer.RenderFrame(f);
     const tracker::BodyFrame answer = tracker.Track(frame.depth);
     evaluator.AddFrame(frame, answer);
     if (job.pictures_every == 0 || f % job.pictures_every != 0) continue;
@@ -40,16 +41,17 @@ IndoorScore Play(const IndoorScenario& scenario, const IndoorCast& cast, const J
   return std::move(evaluator.score);
 }
 
-std::vector<IndoorScore> PlayAll(const std::vector<Job>& jobs,
-                                 const std::vector<IndoorScenario>& scenarios,
-                                 const IndoorCast& cast, const tracker::TrackerOptions& how,
-                                 ExperimentContext& context) {
+std::vector<IndoorScore> RunScenarios(const std::vector<Job>& jobs,
+                                      const std::vector<IndoorScenario>& scenarios,
+                                      const IndoorSceneInputs& inputs,
+                                      const tracker::TrackerOptions& how,
+                                      ExperimentContext& context) {
   std::vector<IndoorScore> scores(jobs.size());
   std::mutex mutex;
   size_t done = 0;
   RunJobs(jobs.size(), context.threads, [&](size_t i) {
     const IndoorScenario& scenario = scenarios[jobs[i].scenario];
-    scores[i] = Play(scenario, cast, jobs[i], how, context);
+    scores[i] = RunScenario(scenario, inputs, jobs[i], how, context);
     const std::lock_guard lock(mutex);
     ++done;
     if (!context.progress) return;
@@ -180,8 +182,8 @@ std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
   const auto model = LoadFetchedBody();
   const recon::Wardrobe wardrobe(model);
   const int width = settings.width;
-  const IndoorCast cast{model, wardrobe,      clips,          settings.split,
-                        width, width * 3 / 4, settings.frames};
+  const IndoorSceneInputs inputs{model, wardrobe,      clips,          settings.split,
+                                 width, width * 3 / 4, settings.frames};
 
   const auto scenarios = IndoorScenarios();
   std::vector<Job> jobs;
@@ -194,7 +196,7 @@ std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
   }
   if (jobs.empty())
     throw InputError(fmt::format("indoor-scenes: no scenario has '{}' in its name", settings.only));
-  const auto scores = PlayAll(jobs, scenarios, cast, how, context);
+  const auto scores = RunScenarios(jobs, scenarios, inputs, how, context);
 
   Table where = WhereTable(), joints = JointsTable(), jitter = JitterTable();
   IndoorScore all;

@@ -9,7 +9,7 @@
 #include "recon/body/rig.h"
 #include "tools/experiments/compare/joint_track.h"
 #include "tools/experiments/experiment.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/view_sampler.h"
 #include "tools/tracker/tracker.h"
 
@@ -37,8 +37,8 @@ struct IndoorScenario {
 
 std::vector<IndoorScenario> IndoorScenarios();
 
-/// Models and motions for the scenarios.
-struct IndoorCast {
+/// Body model, clothes and motions that all scenarios share, and the size of their sequences.
+struct IndoorSceneInputs {
   const recon::BodyModel& model;
   const recon::Wardrobe& wardrobe;
   const std::vector<recon::MotionClip>& clips;
@@ -47,12 +47,13 @@ struct IndoorCast {
   int64_t frames = 90;
 };
 
-/// One performance of a scenario: same scenario, cast and seed, same frames.
-class IndoorStage {
+/// One performance of a scenario: same scenario, inputs and seed, same frames.
+class IndoorSceneRenderer {
  public:
-  IndoorStage(const IndoorScenario& scenario, const IndoorCast& cast, uint64_t seed);
+  IndoorSceneRenderer(const IndoorScenario& scenario, const IndoorSceneInputs& inputs,
+                      uint64_t seed);
   LabelledFrame RenderFrame(int64_t index);
-  int64_t size() const { return cast_.frames; }
+  int64_t size() const { return inputs_.frames; }
 
  private:
   struct Way {  // of one person
@@ -71,13 +72,13 @@ class IndoorStage {
   void Stand(const depth::TriangleMesh& mesh, const Eigen::Vector3d& place_m, double turn_rad);
 
   IndoorScenario scenario_;
-  IndoorCast cast_;
+  IndoorSceneInputs inputs_;
   uint64_t seed_;
   depth::Camera camera_;
   Eigen::Isometry3d camera_from_world_;
   double distance_m_ = 3;  // of the people's middle, which is the world's origin
   std::vector<Way> ways_;
-  std::vector<Actor> actors_;
+  std::vector<ClothedBody> bodies_;
   depth::Renderer renderer_;
 };
 

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "tools/experiments/experiments_internal.h"
-#include "tools/experiments/stage/motions.h"
-#include "tools/experiments/stage/staged.h"
+#include "tools/experiments/simulation/motions.h"
+#include "tools/experiments/simulation/recording_simulator.h"
 
 namespace ossa::tools {
 namespace {
@@ -192,21 +192,21 @@ Liu2016Study::Liu2016Study(ExperimentContext& context) {
              "tested with the others learned from. ",
              movers, frames, tested);
   prior = LoadPrior(context);
-  Studio studio(context, observer);
+  RecordingSimulator simulator(context, observer);
   const auto clips = AuthoredMotions(context, AllActions(), movers);
   std::set<std::string> names;
   std::map<std::string, uint64_t> bodies;
   for (size_t i = 0; i < clips.size(); ++i) {
-    StageOptions stage;
-    stage.name = clips[i].name.substr(clips[i].name.find('/') + 1);
-    stage.frames = frames;
-    const std::string mover = stage.name.substr(stage.name.find('/') + 1);
-    stage.seed = context.seed * 1000 + BodyOf(mover, &bodies);
+    SequenceOptions sequence;
+    sequence.name = clips[i].name.substr(clips[i].name.find('/') + 1);
+    sequence.frames = frames;
+    const std::string mover = sequence.name.substr(sequence.name.find('/') + 1);
+    sequence.seed = context.seed * 1000 + BodyOf(mover, &bodies);
     if (context.progress) {
       context.progress(static_cast<double>(i), static_cast<double>(clips.size()),
-                       "filming " + stage.name);
+                       "rendering " + sequence.name);
     }
-    recordings.push_back(studio.Record(clips[i], stage));
+    recordings.push_back(simulator.Record(clips[i], sequence));
     recordings.back().subject = mover;
     names.insert(mover);
   }

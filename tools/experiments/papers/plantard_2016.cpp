@@ -13,8 +13,8 @@
 #include "depth/base/atomic_file.h"
 #include "tools/experiments/compare/svg_plot.h"
 #include "tools/experiments/experiments_internal.h"
-#include "tools/experiments/stage/motions.h"
-#include "tools/experiments/stage/staged.h"
+#include "tools/experiments/simulation/motions.h"
+#include "tools/experiments/simulation/recording_simulator.h"
 
 namespace ossa::tools {
 namespace {
@@ -88,20 +88,20 @@ void Study::Add(ExperimentContext& context, MethodRun run) {
 std::vector<RecordedPair> RecordScenarios(ExperimentContext& context, const std::string& observer,
                                           const std::vector<recon::MotionClip>& clips, int frames) {
   std::vector<RecordedPair> recorded;
-  Studio studio(context, observer);
+  RecordingSimulator simulator(context, observer);
   for (size_t i = 0; i < kScenarios; ++i) {
     const recon::MotionClip& clip = clips[i % clips.size()];
     const Scenario scenario = MakeScenario(i);
-    StageOptions stage;
-    stage.name = fmt::format("scenario {} ({})", i + 1, scenario.text);
-    stage.clutter = scenario.clutter;
-    stage.azimuth_rad = scenario.azimuth_rad;
-    stage.frames = frames;
-    stage.seed = context.seed * 100 + i;
+    SequenceOptions sequence;
+    sequence.name = fmt::format("scenario {} ({})", i + 1, scenario.text);
+    sequence.clutter = scenario.clutter;
+    sequence.azimuth_rad = scenario.azimuth_rad;
+    sequence.frames = frames;
+    sequence.seed = context.seed * 100 + i;
     if (context.progress) {
-      context.progress(static_cast<double>(i), kScenarios, "filming " + stage.name);
+      context.progress(static_cast<double>(i), kScenarios, "rendering " + sequence.name);
     }
-    recorded.push_back(studio.Record(clip, stage));
+    recorded.push_back(simulator.Record(clip, sequence));
   }
   return recorded;
 }

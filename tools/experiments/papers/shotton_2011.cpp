@@ -67,9 +67,9 @@ struct Setting {
   int trees = 1;
 };
 
-class Laboratory {
+class ForestEvaluator {
  public:
-  Laboratory(ExperimentContext& context, ShottonSettings settings)
+  ForestEvaluator(ExperimentContext& context, ShottonSettings settings)
       : context_(context), settings_(std::move(settings)) {}
 
   // A data set of this study; finished ones are kept.
@@ -86,7 +86,7 @@ class Laboratory {
   ShottonSettings settings_;
 };
 
-fs::path Laboratory::RenderData(Split split, int64_t frames) {
+fs::path ForestEvaluator::RenderData(Split split, int64_t frames) {
   const bool test = split == Split::kTest;
   const std::string& motion = test ? settings_.test_motion : settings_.motion;
   RenderJob job;
@@ -105,7 +105,7 @@ fs::path Laboratory::RenderData(Split split, int64_t frames) {
   options.seed = context_.seed + (test ? 500 : 0);
   recon::MocapOptions mocap;
   mocap.seed = options.seed;  // other movers for the test
-  const FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()),
+  const FrameInputs inputs(recon::BodyModel::Load(recon::BodyFolder()),
                            MakePoseBank(recon::LoadMocap({motion}, mocap)), options);
   job.frames = frames;
   job.png = false;
@@ -120,14 +120,14 @@ fs::path Laboratory::RenderData(Split split, int64_t frames) {
                       test ? "rendering test images" : "rendering training images");
   };
   const FolderLock lock(job.out);
-  if (RenderShare(studio, job) != RenderEnd::kDone) throw Interruption{};
-  FinishDataset(studio, job);
+  if (RenderShare(inputs, job) != RenderEnd::kDone) throw Interruption{};
+  FinishDataset(inputs, job);
   return job.out;
 }
 
-Evaluation Laboratory::Measured(const std::string& key,
-                                const std::function<forest::ForestModel()>& model,
-                                int64_t test_frames) {
+Evaluation ForestEvaluator::Measured(const std::string& key,
+                                     const std::function<forest::ForestModel()>& model,
+                                     int64_t test_frames) {
   const fs::path test = RenderData(Split::kTest, test_frames);
   const std::string text = context_.Cached(key + " on " + test.filename().string(), [&] {
     const forest::ForestModel grown = model();
@@ -154,7 +154,7 @@ Evaluation Laboratory::Measured(const std::string& key,
   return evaluation;
 }
 
-Evaluation Laboratory::EvaluateSetting(const Setting& setting, int64_t test_frames) {
+Evaluation ForestEvaluator::EvaluateSetting(const Setting& setting, int64_t test_frames) {
   const std::string key =
       fmt::format("shotton {} {} {} {} {} {} {} {} seed {}", ComputeCodeKey(), settings_.motion,
                   setting.images, setting.depth, setting.trees, settings_.pixels,
@@ -189,7 +189,7 @@ Evaluation Laboratory::EvaluateSetting(const Setting& setting, int64_t test_fram
       test_frames);
 }
 
-Evaluation Laboratory::EvaluateShipped(int64_t test_frames) {
+Evaluation ForestEvaluator::EvaluateShipped(int64_t test_frames) {
   const fs::path path = context_.model.empty() ? tracker::ShippedFile("body.ossa") : context_.model;
   return Measured(
       fmt::format("shotton shipped {} {}", ComputeCodeKey(), ComputeFileKey(path)),
@@ -247,7 +247,7 @@ void WriteFigures(const fs::path& out, const Curves& accuracy) {
 
 std::string Percent(double share) { return std::isnan(share) ? "-" : Cell(100 * share, 1); }
 
-Table ComputeFigureSix(Laboratory& laboratory, const ShottonSettings& settings,
+Table ComputeFigureSix(ForestEvaluator& evaluator, const ShottonSettings& settings,
                        const fs::path& out) {
   Table table;
   table.title = "Figure 6: accuracy against training images and depth";
@@ -257,7 +257,7 @@ Table ComputeFigureSix(Laboratory& laboratory, const ShottonSettings& settings,
   for (const int count : settings.images) {
     for (const int depth : settings.depths) {
       const Setting setting{count, depth, settings.trees};
-      const Evaluation e = laboratory.EvaluateSetting(setting, settings.test_images);
+      const Evaluation e = evaluator.EvaluateSetting(setting, settings.test_images);
       accuracy[count][depth] = e.mean_class_accuracy;
       table.rows.push_back({fmt::format("{}", setting.images), fmt::format("{}", setting.depth),
                             Percent(e.mean_class_accuracy), Percent(e.pixel_accuracy),
@@ -277,11 +277,11 @@ Table ComputeFigureSix(Laboratory& laboratory, const ShottonSettings& settings,
   return table;
 }
 
-Table ComputeFigureEight(Laboratory& laboratory, const ShottonSettings& settings) {
+Table ComputeFigureEight(ForestEvaluator& evaluator, const ShottonSettings& settings) {
   Table table;
   table.title = "Figure 8: average precision within 10 cm by joint, the shipped model";
   table.columns = {"joint", "AP, %", "AP where visible, %"};
-  const Evaluation shipped = laboratory.EvaluateShipped(settings.test_images);
+  const Evaluation shipped = evaluator.EvaluateShipped(settings.test_images);
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     table.rows.push_back({std::string(recon::kJointNames[j]), Percent(shipped.ap_10cm.at(j)),
                           Percent(shipped.ap_10cm_visible.at(j))});
@@ -299,9 +299,9 @@ void ReadShotton2011Parameters(ExperimentContext& context) { ReadSettings(contex
 
 std::vector<Table> RunShotton2011(ExperimentContext& context) {
   const ShottonSettings settings = ReadSettings(context);
-  Laboratory laboratory(context, settings);
-  return {ComputeFigureSix(laboratory, settings, context.out),
-          ComputeFigureEight(laboratory, settings)};
+  ForestEvaluator evaluator(context, settings);
+  return {ComputeFigureSix(evaluator, settings, context.out),
+          ComputeFigureEight(evaluator, settings)};
 }
 
 }  // namespace ossa::tools

@@ -10,7 +10,7 @@
 #include "tools/experiments/papers/database_coverage.h"
 #include "tools/experiments/papers/shum_2013_internal.h"
 #include "tools/experiments/papers/visibility_errors.h"
-#include "tools/experiments/stage/motions.h"
+#include "tools/experiments/simulation/motions.h"
 
 namespace ossa::tools {
 namespace {
@@ -180,21 +180,21 @@ Shum2013Study::Shum2013Study(ExperimentContext& context, bool occluded) {
 void Shum2013Study::RecordClips(ExperimentContext& context, const Shum2013Settings& settings,
                                 bool occluded) {
   const auto motions = StudyMotions(context, static_cast<size_t>(settings.clips), settings.frames);
-  Studio studio(context, settings.observer);
+  RecordingSimulator simulator(context, settings.observer);
   note = ObserverNote(settings.observer) + motions.note;
   const auto record = [&](Clutter clutter, const char* kind) {
     std::vector<RecordedPair> pairs;
     for (size_t i = 0; i < motions.clips.size(); ++i) {
       if (context.progress) {
         context.progress(static_cast<double>(i), static_cast<double>(motions.clips.size()),
-                         fmt::format("filming {} {}", kind, motions.clips[i].name));
+                         fmt::format("rendering {} {}", kind, motions.clips[i].name));
       }
-      StageOptions stage;
-      stage.name = fmt::format("{} {}", motions.clips[i].name, kind);
-      stage.clutter = clutter;
-      stage.frames = settings.frames;
-      stage.seed = context.seed * 100 + i;
-      pairs.push_back(studio.Record(motions.clips[i], stage));
+      SequenceOptions sequence;
+      sequence.name = fmt::format("{} {}", motions.clips[i].name, kind);
+      sequence.clutter = clutter;
+      sequence.frames = settings.frames;
+      sequence.seed = context.seed * 100 + i;
+      pairs.push_back(simulator.Record(motions.clips[i], sequence));
     }
     return pairs;
   };

@@ -1,6 +1,6 @@
 #pragma once
 #include "tools/experiments/sdk/method_runs.h"
-#include "tools/experiments/stage/staged.h"
+#include "tools/experiments/simulation/recording_simulator.h"
 
 namespace ossa::tools {
 

@@ -9,7 +9,7 @@
 #include "recon/methods/reconstruct_sequence.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 
 namespace ossa::tools {
 namespace {

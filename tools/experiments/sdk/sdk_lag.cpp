@@ -12,7 +12,7 @@
 #include "recon/filters/lag_smoothing.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 
 namespace ossa::tools {
 namespace {

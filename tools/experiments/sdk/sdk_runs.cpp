@@ -14,7 +14,7 @@
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/sdk/method_runs.h"
 #include "tools/experiments/sdk/sdk_internal.h"
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/shipped.h"
 

@@ -61,8 +61,8 @@ SensorStatistics MeasureRendered(ExperimentContext& context, FrameOptions option
   options.seed = context.seed;
   for (const View view : views) {
     options.view = view;
-    const FrameStudio studio(recon::BodyModel::Load(recon::BodyFolder()), bank, options);
-    FrameMaker maker(studio);
+    const FrameInputs inputs(recon::BodyModel::Load(recon::BodyFolder()), bank, options);
+    FrameMaker maker(inputs);
     for (int64_t i = 0; i < frames / static_cast<int64_t>(views.size()); ++i) {
       context.ThrowIfInterrupted();
       GatherFrame(maker.Make(i), statistics);

@@ -74,36 +74,36 @@ DodgeRun RunDodge(const Posture& pose, bool dodging, uint64_t seed, SceneResult&
   SceneView view;
   view.eye_m = {2.0, 1.8, 3.0};
   view.look_at_m = {0.0, 1.1, 0.4};
-  Stage stage(seed, view);
+  SceneSimulation simulation(seed, view);
   physics::CharacterOptions character;
   character.dodge = dodging;
-  const int person = stage.AddPerson(pose, character);
+  const int person = simulation.AddPerson(pose, character);
   std::mt19937_64 random(seed);
   DodgeRun run;
   for (int f = 0; f < 240; ++f) {
     if (f % 30 == 15 && f < 210) {
-      stage.world.AddObject(ThrowAtHead(stage.world.StateOf(person).posture, random));
+      simulation.world.AddObject(ThrowAtHead(simulation.world.StateOf(person).posture, random));
     }
-    stage.Advance({pose}, dodging ? "dodging on" : "dodging off");
-    run.head_hits += stage.IsStruck(person, {3}) ? 1 : 0;
-    run.forearm_hits += stage.IsStruck(person, {6, 7, 10, 11}) ? 1 : 0;
+    simulation.Advance({pose}, dodging ? "dodging on" : "dodging off");
+    run.head_hits += simulation.IsStruck(person, {3}) ? 1 : 0;
+    run.forearm_hits += simulation.IsStruck(person, {6, 7, 10, 11}) ? 1 : 0;
   }
-  run.pictures = stage.pictures();
-  if (dodging) AddCommonNumbers(stage, result);
+  run.pictures = simulation.pictures();
+  if (dodging) AddCommonNumbers(simulation, result);
   return run;
 }
 
 }  // namespace
 
-SceneResult MeetBalls(const Actors& actors, uint64_t seed) {
+SceneResult MeetBalls(const ActionClips& clips, uint64_t seed) {
   SceneView view;
   view.eye_m = {2.8, 1.7, 3.2};
   view.look_at_m = {0.0, 0.9, 0.6};
-  Stage stage(seed, view);
-  const std::vector<Posture>& motion = actors.Play("tai_chi");
-  const int person = stage.AddPerson(motion[0]);
+  SceneSimulation simulation(seed, view);
+  const std::vector<Posture>& motion = clips.Get("tai_chi");
+  const int person = simulation.AddPerson(motion[0]);
   // The same without balls, to see what the impacts do.
-  Stage calm(seed, view, false);
+  SceneSimulation calm(seed, view, false);
   const int twin = calm.AddPerson(motion[0]);
   std::mt19937_64 random(seed);
   int hits = 0;
@@ -111,13 +111,13 @@ SceneResult MeetBalls(const Actors& actors, uint64_t seed) {
   const size_t last_shot = std::min<size_t>(motion.size() - 45, 240);
   for (size_t f = 0; f < motion.size(); ++f) {
     if (f % 6 == 0 && f < last_shot) {
-      stage.world.AddObject(ThrowAtTrunk(stage.world.StateOf(person).posture, random));
+      simulation.world.AddObject(ThrowAtTrunk(simulation.world.StateOf(person).posture, random));
     }
-    stage.Advance({motion[f]}, "balls of random sizes");
+    simulation.Advance({motion[f]}, "balls of random sizes");
     calm.Advance({motion[f]}, "");
-    hits += stage.IsStruck(person, {}) ? 1 : 0;
-    at_end =
-        LargestDistance_m(stage.world.StateOf(person).posture, calm.world.StateOf(twin).posture);
+    hits += simulation.IsStruck(person, {}) ? 1 : 0;
+    at_end = LargestDistance_m(simulation.world.StateOf(person).posture,
+                               calm.world.StateOf(twin).posture);
     largest = std::max(largest, at_end);
   }
   SceneResult result;
@@ -126,12 +126,12 @@ SceneResult MeetBalls(const Actors& actors, uint64_t seed) {
       {"largest give of a joint", Text(100 * largest, 1, "cm"), ">= 2 cm", largest >= 0.02},
       {"left a second after the last ball", Text(100 * at_end, 2, "cm"), "<= 3 cm",
        at_end <= 0.03}};
-  AddCommonNumbers(stage, result);
+  AddCommonNumbers(simulation, result);
   return result;
 }
 
-SceneResult Dodge(const Actors& actors, uint64_t seed) {
-  const std::vector<Posture>& motion = actors.Play("t_pose");
+SceneResult Dodge(const ActionClips& clips, uint64_t seed) {
+  const std::vector<Posture>& motion = clips.Get("t_pose");
   const Posture pose = motion[motion.size() / 2];
   SceneResult result;
   DodgeRun off = RunDodge(pose, false, seed, result);

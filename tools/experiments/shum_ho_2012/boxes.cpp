@@ -32,23 +32,25 @@ Vector3d PlaceElbow(const Vector3d& shoulder, const Vector3d& wrist, double uppe
 
 /// Both hands, wrists too, at the sides of something `half_m` wide: user constraints of sec. 6.1.
 /// The clip's own elbows know nothing of the box: theirs go where the wrists want them.
-void PutHands(Stage& stage, int person, const Vector3d& middle, double half_m, Posture& body) {
+void PutHands(SceneSimulation& simulation, int person, const Vector3d& middle, double half_m,
+              Posture& body) {
   const recon::BoneLengths lengths = recon::MeasureBoneLengths(body);
   for (const double side : {1.0, -1.0}) {
     const size_t hand = static_cast<size_t>(side > 0 ? Joint::kHandLeft : Joint::kHandRight);
     // A little above the middle: the box hangs.
     const Vector3d at = middle + Vector3d(side * half_m, 0.06, 0.0);
     const Vector3d wrist = at + Vector3d(side * 0.01, 0.03, -0.04);
-    stage.world.Constrain(person, static_cast<Joint>(hand), at + Vector3d(0.0, 0.0, 0.04), false);
-    stage.world.Constrain(person, static_cast<Joint>(hand - 1), wrist, false);
+    simulation.world.Constrain(person, static_cast<Joint>(hand), at + Vector3d(0.0, 0.0, 0.04),
+                               false);
+    simulation.world.Constrain(person, static_cast<Joint>(hand - 1), wrist, false);
     body.position_m[hand - 2] = PlaceElbow(body.position_m[hand - 3], wrist, lengths[hand - 2],
                                            lengths[hand - 1], Vector3d(0.8 * side, -0.5, -0.4));
   }
 }
 
 /// Bending down, coming up, and steps to a side as far as they go.
-std::vector<Posture> LiftingMotion(const Actors& actors) {
-  std::vector<Posture> motion = actors.Sequence({"pick_up", "side_steps"});
+std::vector<Posture> LiftingMotion(const ActionClips& clips) {
+  std::vector<Posture> motion = clips.Sequence({"pick_up", "side_steps"});
   const auto aside = [start_m = motion[0].position_m[0].x()](const Posture& posture) {
     return std::abs(posture.position_m[0].x() - start_m);
   };
@@ -93,7 +95,7 @@ Grip PlaceBox(const std::vector<Posture>& motion) {
 
 /// A wall of light boxes at arm's length before who stands so, wider than the shoulders and as
 /// high: fists reach its upper half, feet its lower.
-std::vector<int> BuildWall(Stage& stage, const Posture& standing) {
+std::vector<int> BuildWall(SceneSimulation& simulation, const Posture& standing) {
   constexpr double kEdge_m = 0.26, kBefore_m = 0.42;
   const Vector3d chest = standing[Joint::kShoulderCenter];
   const int layers = static_cast<int>(std::ceil((chest.y() + 0.1) / kEdge_m));
@@ -105,13 +107,14 @@ std::vector<int> BuildWall(Stage& stage, const Posture& standing) {
       box.mass_kg = 0.3;
       box.position_m = {chest.x() + column * 1.02 * kEdge_m, kEdge_m * (layer + 0.5) + 0.001,
                         chest.z() + kBefore_m + 0.5 * kEdge_m};
-      boxes.push_back(stage.world.AddObject(box));
+      boxes.push_back(simulation.world.AddObject(box));
     }
   }
   return boxes;
 }
 
-std::vector<int> ScatterBoxes(Stage& stage, uint64_t seed, double from_z_m, double until_z_m) {
+std::vector<int> ScatterBoxes(SceneSimulation& simulation, uint64_t seed, double from_z_m,
+                              double until_z_m) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::vector<int> boxes;
@@ -125,15 +128,15 @@ std::vector<int> ScatterBoxes(Stage& stage, uint64_t seed, double from_z_m, doub
     box.position_m = {-0.5 + 0.3 * (k % 4) + 0.08 * uniform(random),
                       0.5 * edge + 0.001 + 0.27 * layer,
                       from_z_m + (until_z_m - from_z_m) * row / 6.0 + 0.08 * uniform(random)};
-    boxes.push_back(stage.world.AddObject(box));
+    boxes.push_back(simulation.world.AddObject(box));
   }
   return boxes;
 }
 
-int CountMoved(const Stage& stage, const std::vector<int>& boxes,
+int CountMoved(const SceneSimulation& simulation, const std::vector<int>& boxes,
                const std::vector<Vector3d>& start) {
   return static_cast<int>(std::count_if(boxes.begin(), boxes.end(), [&](int box) {
-    const Vector3d by = stage.world.ObjectOf(box).position_m - start[static_cast<size_t>(box)];
+    const Vector3d by = simulation.world.ObjectOf(box).position_m - start[static_cast<size_t>(box)];
     return std::hypot(by.x(), by.z()) > 0.1;
   }));
 }
@@ -166,20 +169,20 @@ struct CarriedBox {
 
 }  // namespace
 
-SceneResult CarryABox(const Actors& actors, uint64_t seed) {
+SceneResult CarryABox(const ActionClips& clips, uint64_t seed) {
   SceneView view;
   view.eye_m = {2.2, 1.5, 2.4};
   view.look_at_m = {0.35, 0.75, 0.25};
-  Stage stage(seed, view);
-  std::vector<Posture> motion = LiftingMotion(actors);
+  SceneSimulation simulation(seed, view);
+  std::vector<Posture> motion = LiftingMotion(clips);
   // The lift begins when both hands have a grip.
   constexpr int kPause = 15;
   const auto lowest = motion.begin() + LowestFrame(motion);
   motion.insert(lowest, kPause, *lowest);
-  const int person = stage.AddPerson(motion[0]);
+  const int person = simulation.AddPerson(motion[0]);
   const Grip grip = PlaceBox(motion);
-  stage.world.AddObject(grip.stool);
-  const int box = stage.world.AddObject(grip.box);
+  simulation.world.AddObject(grip.stool);
+  const int box = simulation.world.AddObject(grip.box);
   const double half_width = 0.5 * grip.box.size_m.x();
 
   const Vector3d chest_low = motion[static_cast<size_t>(grip.lowest)][Joint::kShoulderCenter];
@@ -196,40 +199,40 @@ SceneResult CarryABox(const Actors& actors, uint64_t seed) {
     const Vector3d from_chest = (1.0 - up) * (grip.box.position_m - chest_low) + up * kCarried_m;
     const Vector3d chest = f < grip.lowest ? chest_low : body[Joint::kShoulderCenter];
     const Vector3d middle = chest + from_chest;
-    if (f > grip.lowest - 40) PutHands(stage, person, middle, half, body);
-    stage.Advance({body}, "lift and carry a bulky box");
-    carried.Add(stage.world.ObjectOf(box));
+    if (f > grip.lowest - 40) PutHands(simulation, person, middle, half, body);
+    simulation.Advance({body}, "lift and carry a bulky box");
+    carried.Add(simulation.world.ObjectOf(box));
   }
   SceneResult result;
   result.numbers = carried.Criteria();
-  AddCommonNumbers(stage, result);
+  AddCommonNumbers(simulation, result);
   return result;
 }
 
-SceneResult WalkThroughBoxes(const Actors& actors, uint64_t seed) {
-  const std::vector<Posture> fight = actors.Sequence({"punch", "kick"});
-  const std::vector<Posture> motion = actors.Sequence({"punch", "kick", "walk"});
+SceneResult WalkThroughBoxes(const ActionClips& clips, uint64_t seed) {
+  const std::vector<Posture> fight = clips.Sequence({"punch", "kick"});
+  const std::vector<Posture> motion = clips.Sequence({"punch", "kick", "walk"});
   const double end_m = motion.back().position_m[0].z();
   SceneView view;
   view.eye_m = {3.9, 2.2, 0.5 * end_m + 1.2};
   view.look_at_m = {0.0, 0.6, 0.5 * end_m};
-  Stage stage(seed, view);
-  stage.AddPerson(motion[0]);
-  const std::vector<int> wall = BuildWall(stage, motion[0]);
-  const std::vector<int> scattered = ScatterBoxes(stage, seed, 1.4, end_m + 0.2);
+  SceneSimulation simulation(seed, view);
+  simulation.AddPerson(motion[0]);
+  const std::vector<int> wall = BuildWall(simulation, motion[0]);
+  const std::vector<int> scattered = ScatterBoxes(simulation, seed, 1.4, end_m + 0.2);
   std::vector<Vector3d> start;
-  for (int k = 0; k < stage.world.ObjectCount(); ++k) {
-    start.push_back(stage.world.ObjectOf(k).position_m);
+  for (int k = 0; k < simulation.world.ObjectCount(); ++k) {
+    start.push_back(simulation.world.ObjectOf(k).position_m);
   }
   int fist = 0, foot = 0, fallen = 0;
   for (size_t f = 0; f < motion.size(); ++f) {
-    stage.Advance({motion[f]}, f < fight.size() ? "punch and kick" : "walk through boxes");
-    if (f == fight.size()) fallen = CountMoved(stage, wall, start);
+    simulation.Advance({motion[f]}, f < fight.size() ? "punch and kick" : "walk through boxes");
+    if (f == fight.size()) fallen = CountMoved(simulation, wall, start);
     if (f > fight.size()) continue;
-    fist += stage.IsStruck(0, {6, 7, 10, 11}) ? 1 : 0;
-    foot += stage.IsStruck(0, {14, 15, 18, 19}) ? 1 : 0;
+    fist += simulation.IsStruck(0, {6, 7, 10, 11}) ? 1 : 0;
+    foot += simulation.IsStruck(0, {14, 15, 18, 19}) ? 1 : 0;
   }
-  const int moved = CountMoved(stage, scattered, start);
+  const int moved = CountMoved(simulation, scattered, start);
   SceneResult result;
   result.numbers = {
       {"frames in which a fist or forearm struck", std::to_string(fist), ">= 1", fist >= 1},
@@ -237,7 +240,7 @@ SceneResult WalkThroughBoxes(const Actors& actors, uint64_t seed) {
       {"boxes knocked away by fists and feet",
        std::to_string(fallen) + " of " + std::to_string(wall.size()), ">= 3", fallen >= 3},
       {"boxes moved by walking", std::to_string(moved) + " of 48", ">= 12", moved >= 12}};
-  AddCommonNumbers(stage, result);
+  AddCommonNumbers(simulation, result);
   return result;
 }
 

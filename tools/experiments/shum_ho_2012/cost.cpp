@@ -139,24 +139,24 @@ class EnduranceRun {
   Endurance found_;
 };
 
-Endurance RunEndurance(const Actors& actors, double hours, const ExperimentContext& context) {
-  const std::vector<std::string> actions = actors.Actions();
-  EnduranceRun run(actors.Play(actions[0])[0], context.seed);
+Endurance RunEndurance(const ActionClips& clips, double hours, const ExperimentContext& context) {
+  const std::vector<std::string> actions = clips.Actions();
+  EnduranceRun run(clips.Get(actions[0])[0], context.seed);
   const auto wanted = static_cast<int64_t>(hours * 3600.0 / kFrame_s);
   while (run.found().frames < wanted) {
     context.ThrowIfInterrupted();
-    run.Play(actors.Play(actions[run.Pick(actions.size())]), wanted);
+    run.Play(clips.Get(actions[run.Pick(actions.size())]), wanted);
   }
   return run.found();
 }
 
 }  // namespace
 
-Table CostStudy(ExperimentContext& context, const Actors& actors) {
+Table CostStudy(ExperimentContext& context, const ActionClips& clips) {
   Table table;
   table.title = "What the character costs and stands";
   table.columns = {"what", "measured", "wanted", "holds"};
-  const auto& motion = actors.Play("tai_chi");
+  const auto& motion = clips.Get("tai_chi");
   const auto row = [&](const std::string& what, const std::string& value, const std::string& wanted,
                        bool good) {
     table.rows.push_back({what, value, wanted, good ? "yes" : "NO"});
@@ -173,7 +173,7 @@ Table CostStudy(ExperimentContext& context, const Actors& actors) {
   }
   const double hours = ReadShumHoSettings(context.parameters).endurance_hours;
   const double start_ms = ProcessorTime_ms();
-  const Endurance e = RunEndurance(actors, hours, context);
+  const Endurance e = RunEndurance(clips, hours, context);
   row(fmt::format("{:g} hours of clips, pushes, bad and dropped frames: not finite", hours),
       fmt::format("{} of {} frames, in {:.0f} s", e.rescued, e.frames,
                   1e-3 * (ProcessorTime_ms() - start_ms)),

@@ -215,7 +215,7 @@ void AddRow(Table& table, const FilterData& data, const std::string& control,
 
 }  // namespace
 
-Table FilterStudy(ExperimentContext& context, const Actors& actors) {
+Table FilterStudy(ExperimentContext& context, const ActionClips& clips) {
   Table table;
   table.title = "The character as a filter: unfiltered -> filtered, mean over clips";
   table.columns = {"postures",
@@ -235,7 +235,7 @@ Table FilterStudy(ExperimentContext& context, const Actors& actors) {
   physics::CharacterFilterOptions paper, plain, motor;
   plain.lead = 0.0;
   motor.control = physics::Control::kMotor;
-  for (const FilterData& data : MakeFilterData(context, actors, table.note)) {
+  for (const FilterData& data : MakeFilterData(context, clips, table.note)) {
     context.ThrowIfInterrupted();
     AddRow(table, data, "pd", paper);
     AddRow(table, data, "pd, lead 0", plain);

@@ -7,8 +7,8 @@
 
 #include "tools/experiments/compare/recordings.h"
 #include "tools/experiments/shum_ho_2012/filter_internal.h"
-#include "tools/experiments/stage/motions.h"
-#include "tools/experiments/stage/staged.h"
+#include "tools/experiments/simulation/motions.h"
+#include "tools/experiments/simulation/recording_simulator.h"
 
 namespace ossa::tools {
 namespace {
@@ -52,11 +52,11 @@ FilterCase Noisy(const std::vector<Posture>& truth, double sigma_m, uint64_t see
   return c;
 }
 
-FilterData Authored(const Actors& actors, double sigma_cm, uint64_t seed) {
+FilterData Authored(const ActionClips& clips, double sigma_cm, uint64_t seed) {
   FilterData data{fmt::format("authored, noise {:.0f} cm", sigma_cm), {}};
   for (const char* action : {"walk", "punch", "kick", "tai_chi", "wave", "jumping_jacks", "squat",
                              "throw", "golf", "clap", "stand", "march"}) {
-    data.cases.push_back(Noisy(actors.Play(action), 0.01 * sigma_cm, seed + data.cases.size()));
+    data.cases.push_back(Noisy(clips.Get(action), 0.01 * sigma_cm, seed + data.cases.size()));
   }
   return data;
 }
@@ -116,15 +116,15 @@ FilterData Rendered(ExperimentContext& context, std::string& note) {
   const int frames = settings.rendered_frames;
   const std::string& observer = settings.observer;
   const StudyMotion motions = StudyMotions(context, kScenes, frames);
-  Studio studio(context, observer);
+  RecordingSimulator simulator(context, observer);
   std::vector<RecordedPair> recorded;
   for (size_t k = 0; k < kScenes; ++k) {
-    StageOptions stage;
-    stage.name = fmt::format("filter {}", k);
-    stage.clutter = k % 2 == 0 ? Clutter::kNone : Clutter::kFurniture;
-    stage.frames = frames;
-    stage.seed = context.seed * 100 + k;
-    recorded.push_back(studio.Record(motions.clips[k % motions.clips.size()], stage));
+    SequenceOptions sequence;
+    sequence.name = fmt::format("filter {}", k);
+    sequence.clutter = k % 2 == 0 ? Clutter::kNone : Clutter::kFurniture;
+    sequence.frames = frames;
+    sequence.seed = context.seed * 100 + k;
+    recorded.push_back(simulator.Record(motions.clips[k % motions.clips.size()], sequence));
   }
   note += " Rendered scenes: " + ObserverNote(observer) + motions.note;
   return Recorded("rendered, " + observer, recorded, 1, {.time = TimeAlignment::kNone});
@@ -132,13 +132,13 @@ FilterData Rendered(ExperimentContext& context, std::string& note) {
 
 }  // namespace
 
-std::vector<FilterData> MakeFilterData(ExperimentContext& context, const Actors& actors,
+std::vector<FilterData> MakeFilterData(ExperimentContext& context, const ActionClips& clips,
                                        std::string& note) {
   const ShumHoSettings settings = ReadShumHoSettings(context.parameters);
   const double stride = settings.filter_stride;
   std::vector<FilterData> all;
   for (const double sigma_cm : {0.0, 1.0, 3.0}) {
-    all.push_back(Authored(actors, sigma_cm, context.seed));
+    all.push_back(Authored(clips, sigma_cm, context.seed));
   }
   if (context.shared.empty()) {
     note += " Real recordings left out: no --shared folder was given.";

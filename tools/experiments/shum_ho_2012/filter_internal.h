@@ -22,7 +22,7 @@ struct FilterData {
 
 /// Authored motion with noise; the dev recordings of real sensors under --shared, all that have
 /// truth; rendered scenes as the forest sees them. `note` is added to what the table says.
-std::vector<FilterData> MakeFilterData(ExperimentContext& context, const Actors& actors,
+std::vector<FilterData> MakeFilterData(ExperimentContext& context, const ActionClips& clips,
                                        std::string& note);
 
 }  // namespace ossa::tools

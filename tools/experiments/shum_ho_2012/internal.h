@@ -7,16 +7,16 @@
 #include "recon/body/rig.h"
 #include "tools/experiments/experiment.h"
 #include "tools/experiments/shum_ho_2012/scene_painter.h"
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 
 namespace ossa::tools {
 
 /// Authored clips by action; postures of the standard body, feet on y = 0, facing +z.
-class Actors {
+class ActionClips {
  public:
-  explicit Actors(uint64_t seed);
+  explicit ActionClips(uint64_t seed);
   /// The first clip of an action, e.g. "walk".
-  const std::vector<recon::Posture>& Play(const std::string& action) const;
+  const std::vector<recon::Posture>& Get(const std::string& action) const;
   std::vector<std::string> Actions() const;
   /// Actions one after the other, each starting where the last ended, joined over a third of a
   /// second.
@@ -27,10 +27,10 @@ class Actors {
 };
 
 /// A scene while it is played: the world, its pictures and what was seen of it.
-class Stage {
+class SceneSimulation {
  public:
-  /// `filmed`: false: no pictures are made.
-  Stage(uint64_t seed, const SceneView& view, bool filmed = true);
+  /// `draws`: false: no pictures are made.
+  SceneSimulation(uint64_t seed, const SceneView& view, bool draws = true);
 
   physics::World world;
   int AddPerson(const recon::Posture& start, const physics::CharacterOptions& options = {});
@@ -48,7 +48,7 @@ class Stage {
 
  private:
   SceneView view_;
-  bool filmed_;
+  bool draws_;
   std::vector<Picture> pictures_;
   int frames_ = 0;
   double deepest_m_ = 0.0;
@@ -68,15 +68,15 @@ struct SceneResult {
 };
 
 /// The paper's scenes (sec. 8.1-8.3, figs. 3 and 4).
-SceneResult CarryABox(const Actors& actors, uint64_t seed);
-SceneResult WalkThroughBoxes(const Actors& actors, uint64_t seed);
-SceneResult SwingAMace(const Actors& actors, uint64_t seed);
-SceneResult MeetBalls(const Actors& actors, uint64_t seed);
-SceneResult Dodge(const Actors& actors, uint64_t seed);
-SceneResult ThrowBoxes(const Actors& actors, uint64_t seed);
+SceneResult CarryABox(const ActionClips& clips, uint64_t seed);
+SceneResult WalkThroughBoxes(const ActionClips& clips, uint64_t seed);
+SceneResult SwingAMace(const ActionClips& clips, uint64_t seed);
+SceneResult MeetBalls(const ActionClips& clips, uint64_t seed);
+SceneResult Dodge(const ActionClips& clips, uint64_t seed);
+SceneResult ThrowBoxes(const ActionClips& clips, uint64_t seed);
 
 /// Contact depth, cost: the numbers that every scene shares.
-void AddCommonNumbers(const Stage& stage, SceneResult& result);
+void AddCommonNumbers(const SceneSimulation& simulation, SceneResult& result);
 std::string Text(double value, int digits, const std::string& unit);
 
 /// Settings of the studies below, beside the motions of rendered scenes (ReadMotions()).
@@ -91,9 +91,9 @@ struct ShumHoSettings {
 ShumHoSettings ReadShumHoSettings(Parameters& parameters);
 
 /// The character as a filter on noisy authored motion and, when there, on real recordings.
-Table FilterStudy(ExperimentContext& context, const Actors& actors);
+Table FilterStudy(ExperimentContext& context, const ActionClips& clips);
 /// Processor time of a frame: one person, six, one among many boxes.
-Table CostStudy(ExperimentContext& context, const Actors& actors);
+Table CostStudy(ExperimentContext& context, const ActionClips& clips);
 /// Fig. 5: error of the matched posture and time of a query against the dimensions kept by PCA.
 Table DimensionStudy(ExperimentContext& context);
 

@@ -21,33 +21,33 @@ using recon::Posture;
 constexpr double kMaceLength_m = 0.35;
 
 /// Hangs a mace on the right hand, free to turn about it; returns the object.
-int AddMace(Stage& stage, int person) {
-  const Vector3d hand = stage.world.StateOf(person).posture[Joint::kHandRight];
+int AddMace(SceneSimulation& simulation, int person) {
+  const Vector3d hand = simulation.world.StateOf(person).posture[Joint::kHandRight];
   ObjectOptions mace;
   mace.shape = physics::Shape::kCapsule;
   mace.size_m = {0.08, kMaceLength_m, 0.08};
   mace.mass_kg = 2.0;
   mace.position_m = hand - Vector3d(0.0, 0.5 * kMaceLength_m + 0.08, 0.0);
-  const int index = stage.world.AddObject(mace);
-  stage.world.Hold(person, Joint::kHandRight, index, false);
+  const int index = simulation.world.AddObject(mace);
+  simulation.world.Hold(person, Joint::kHandRight, index, false);
   return index;
 }
 
 /// Where the hand goes, without boxes, with or without the mace.
 std::vector<Vector3d> HandPath(const std::vector<Posture>& motion, uint64_t seed, bool armed) {
-  Stage stage(seed, {}, false);
-  const int person = stage.AddPerson(motion[0]);
-  if (armed) AddMace(stage, person);
+  SceneSimulation simulation(seed, {}, false);
+  const int person = simulation.AddPerson(motion[0]);
+  if (armed) AddMace(simulation, person);
   std::vector<Vector3d> path;
   for (const Posture& posture : motion) {
-    stage.Advance({posture}, "");
-    path.push_back(stage.world.StateOf(person).posture[Joint::kHandRight]);
+    simulation.Advance({posture}, "");
+    path.push_back(simulation.world.StateOf(person).posture[Joint::kHandRight]);
   }
   return path;
 }
 
 /// Stacks of light boxes half around who stands so, at what an arm and a mace reach.
-std::vector<Vector3d> StackBoxes(Stage& stage, const Posture& standing) {
+std::vector<Vector3d> StackBoxes(SceneSimulation& simulation, const Posture& standing) {
   constexpr double kEdge_m = 0.22, kReach_m = 0.85;
   constexpr int kLayers = 4, kStacks = 5;
   const Vector3d hips = standing[Joint::kHipCenter];
@@ -61,7 +61,7 @@ std::vector<Vector3d> StackBoxes(Stage& stage, const Posture& standing) {
       box.position_m = {hips.x() + kReach_m * std::sin(angle), kEdge_m * (layer + 0.5) + 0.001,
                         hips.z() + kReach_m * std::cos(angle)};
       box.orientation = Eigen::AngleAxisd(angle, Vector3d::UnitY());
-      stage.world.AddObject(box);
+      simulation.world.AddObject(box);
       start.push_back(box.position_m);
     }
   }
@@ -107,7 +107,7 @@ std::vector<Posture> AimAt(std::vector<Posture> motion, const Swing& swing, cons
 }
 
 /// How far it is from the person's skin to a box, but for what holds it; below 0 within.
-double Clearance_m(const Stage& stage, int box, const Posture& body, Joint holding) {
+double Clearance_m(const SceneSimulation& simulation, int box, const Posture& body, Joint holding) {
   constexpr int kPoints = 9;  // along a bone: 6 cm apart on the longest
   const physics::Segments segments =
       physics::ComputeSegments(recon::MeasureBoneLengths(body), 0.0, 0.0);
@@ -118,7 +118,7 @@ double Clearance_m(const Stage& stage, int box, const Posture& body, Joint holdi
     for (int k = 0; k < kPoints; ++k) {
       const double share = static_cast<double>(k) / (kPoints - 1);
       const Vector3d at = from + share * (body.position_m[j] - from);
-      nearest = std::min(nearest, stage.world.DistanceTo(box, at) - segments[j].radius_m);
+      nearest = std::min(nearest, simulation.world.DistanceTo(box, at) - segments[j].radius_m);
     }
   }
   return nearest;
@@ -126,9 +126,9 @@ double Clearance_m(const Stage& stage, int box, const Posture& body, Joint holdi
 
 /// Gives the person a box that sits on the hand, beyond its fingers and clear of the body: who
 /// takes one holds it so.
-int TakeBox(Stage& stage, int person, Joint hand) {
+int TakeBox(SceneSimulation& simulation, int person, Joint hand) {
   constexpr double kEdge_m = 0.16, kStep_m = 0.01, kFarthest_m = 0.3;
-  const Posture now = stage.world.StateOf(person).posture;
+  const Posture now = simulation.world.StateOf(person).posture;
   const Joint wrist = hand == Joint::kHandLeft ? Joint::kWristLeft : Joint::kWristRight;
   const Vector3d along = (now[hand] - now[wrist]).normalized();
   ObjectOptions box;
@@ -136,14 +136,14 @@ int TakeBox(Stage& stage, int person, Joint hand) {
   box.mass_kg = 0.5;
   box.orientation = recon::SmallestTurn(Vector3d::UnitY(), along);
   box.position_m = now[hand] + (0.5 * kEdge_m + 0.04) * along;
-  const int index = stage.world.AddObject(box);
+  const int index = simulation.world.AddObject(box);
   const Vector3d side = (now[Joint::kHipLeft] - now[Joint::kHipRight]).normalized();
   const Vector3d outwards = hand == Joint::kHandLeft ? side : Vector3d(-side);
-  for (double by = 0.0; by < kFarthest_m && Clearance_m(stage, index, now, hand) < 0.0;
+  for (double by = 0.0; by < kFarthest_m && Clearance_m(simulation, index, now, hand) < 0.0;
        by += kStep_m) {
-    stage.world.SetPose(index, box.position_m + by * outwards, box.orientation);
+    simulation.world.SetPose(index, box.position_m + by * outwards, box.orientation);
   }
-  stage.world.Hold(person, hand, index, true);
+  simulation.world.Hold(person, hand, index, true);
   return index;
 }
 
@@ -187,16 +187,16 @@ struct Throw {
   double flew_m = 0.0;                 // until it did
 
   /// Within a frame: a swing of 10 m/s passes its mark in less.
-  void ReleaseIfAimed(Stage& stage, int target) {
-    const physics::ObjectState held = stage.world.ObjectOf(box);
-    if (is_thrown || !aim.IsNow(held, stage.world.StateOf(target).posture)) return;
-    stage.world.Release(box);
+  void ReleaseIfAimed(SceneSimulation& simulation, int target) {
+    const physics::ObjectState held = simulation.world.ObjectOf(box);
+    if (is_thrown || !aim.IsNow(held, simulation.world.StateOf(target).posture)) return;
+    simulation.world.Release(box);
     is_thrown = true;
     from_m = held.position_m;
   }
-  void CountHits(const Stage& stage, int target) {
-    if (!is_thrown || !stage.IsStruck(target, {}, box)) return;
-    if (hits == 0) flew_m = (stage.world.ObjectOf(box).position_m - from_m).norm();
+  void CountHits(const SceneSimulation& simulation, int target) {
+    if (!is_thrown || !simulation.IsStruck(target, {}, box)) return;
+    if (hits == 0) flew_m = (simulation.world.ObjectOf(box).position_m - from_m).norm();
     ++hits;
   }
 };
@@ -219,20 +219,22 @@ SceneView ViewOfPair(const Vector3d& first, double apart_m) {
 
 }  // namespace
 
-SceneResult SwingAMace(const Actors& actors, uint64_t seed) {
-  const std::vector<Posture> motion = actors.Sequence({"throw", "golf"});
+SceneResult SwingAMace(const ActionClips& clips, uint64_t seed) {
+  const std::vector<Posture> motion = clips.Sequence({"throw", "golf"});
   const auto bare = HandPath(motion, seed, false), armed = HandPath(motion, seed, true);
   SceneView view;
   view.eye_m = {-2.4, 1.7, 2.9};
   view.look_at_m = {0.0, 0.8, 0.5};
-  Stage stage(seed, view);
-  const int person = stage.AddPerson(motion[0]);
-  AddMace(stage, person);
-  const std::vector<Vector3d> start = StackBoxes(stage, motion[0]);
-  for (const Posture& posture : motion) stage.Advance({posture}, "a 2 kg mace on the right hand");
+  SceneSimulation simulation(seed, view);
+  const int person = simulation.AddPerson(motion[0]);
+  AddMace(simulation, person);
+  const std::vector<Vector3d> start = StackBoxes(simulation, motion[0]);
+  for (const Posture& posture : motion)
+    simulation.Advance({posture}, "a 2 kg mace on the right hand");
   int hit = 0;
   for (size_t i = 0; i < start.size(); ++i) {
-    if ((stage.world.ObjectOf(static_cast<int>(i) + 1).position_m - start[i]).norm() > 0.1) ++hit;
+    if ((simulation.world.ObjectOf(static_cast<int>(i) + 1).position_m - start[i]).norm() > 0.1)
+      ++hit;
   }
   double mean = 0.0, largest = 0.0;
   for (size_t f = 0; f < motion.size(); ++f) {
@@ -247,32 +249,32 @@ SceneResult SwingAMace(const Actors& actors, uint64_t seed) {
       {"hand path altered, largest", Text(100 * largest, 1, "cm"), ">= 3 cm", largest >= 0.03},
       {"boxes knocked away", std::to_string(hit) + " of " + std::to_string(start.size()), ">= 2",
        hit >= 2}};
-  AddCommonNumbers(stage, result);
+  AddCommonNumbers(simulation, result);
   return result;
 }
 
-SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
+SceneResult ThrowBoxes(const ActionClips& clips, uint64_t seed) {
   constexpr double kApart_m = 3.0;
-  const Vector3d first = actors.Play("throw")[0][Joint::kHipCenter];
-  const Swing swing = FindSwing(actors.Play("throw"));
-  const auto motion = AimAt(actors.Play("throw"), swing, first + Vector3d(0.0, 0.0, kApart_m));
+  const Vector3d first = clips.Get("throw")[0][Joint::kHipCenter];
+  const Swing swing = FindSwing(clips.Get("throw"));
+  const auto motion = AimAt(clips.Get("throw"), swing, first + Vector3d(0.0, 0.0, kApart_m));
   const auto opposite = [&](const Posture& posture) { return FaceBack(posture, first, kApart_m); };
-  Stage stage(seed, ViewOfPair(first, kApart_m));
-  stage.AddPerson(motion[0]);
-  stage.AddPerson(opposite(motion[0]));
+  SceneSimulation simulation(seed, ViewOfPair(first, kApart_m));
+  simulation.AddPerson(motion[0]);
+  simulation.AddPerson(opposite(motion[0]));
   Throw throws[2];
-  for (const int person : {0, 1}) throws[person].box = TakeBox(stage, person, swing.hand);
+  for (const int person : {0, 1}) throws[person].box = TakeBox(simulation, person, swing.hand);
   physics::WorldCallbacks callbacks;
-  callbacks.before_substep = [&stage, &throws](double) {
-    for (const int person : {0, 1}) throws[person].ReleaseIfAimed(stage, 1 - person);
+  callbacks.before_substep = [&simulation, &throws](double) {
+    for (const int person : {0, 1}) throws[person].ReleaseIfAimed(simulation, 1 - person);
   };
-  stage.world.SetCallbacks(callbacks);
+  simulation.world.SetCallbacks(callbacks);
   const size_t delay = 45;  // the second character throws a second and a half later
   for (size_t f = 0; f < motion.size() + delay + 20; ++f) {
     const auto at = [&](size_t frame) { return std::min(frame, motion.size() - 1); };
-    stage.Advance({motion[at(f)], opposite(motion[at(f < delay ? 0 : f - delay)])},
-                  "two characters throw boxes at each other");
-    for (const int person : {0, 1}) throws[person].CountHits(stage, 1 - person);
+    simulation.Advance({motion[at(f)], opposite(motion[at(f < delay ? 0 : f - delay)])},
+                       "two characters throw boxes at each other");
+    for (const int person : {0, 1}) throws[person].CountHits(simulation, 1 - person);
   }
   const double flew_m = std::min(throws[0].flew_m, throws[1].flew_m);
   SceneResult result;
@@ -282,7 +284,7 @@ SceneResult ThrowBoxes(const Actors& actors, uint64_t seed) {
        throws[0].hits >= 1},
       {"frames the second box struck the other", std::to_string(throws[1].hits), ">= 1",
        throws[1].hits >= 1}};
-  AddCommonNumbers(stage, result);
+  AddCommonNumbers(simulation, result);
   return result;
 }
 

@@ -11,8 +11,8 @@
 #include "tools/experiments/compare/recordings.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/shum_ho_2012/internal.h"
-#include "tools/experiments/stage/motions.h"
-#include "tools/experiments/stage/staged.h"
+#include "tools/experiments/simulation/motions.h"
+#include "tools/experiments/simulation/recording_simulator.h"
 
 namespace ossa::tools {
 namespace {
@@ -21,7 +21,7 @@ struct Scene {
   const char* file;
   const char* title;
   double still;  // time of the still picture, as a share of the scene
-  SceneResult (*play)(const Actors& actors, uint64_t seed);
+  SceneResult (*play)(const ActionClips& clips, uint64_t seed);
 };
 
 constexpr std::array<Scene, 6> kScenes = {{
@@ -50,9 +50,9 @@ std::set<std::string> Parts(Parameters& parameters) {
   return parameters.Some("parts", known);
 }
 
-void PlayScene(const Scene& scene, const ExperimentContext& context, const Actors& actors,
+void PlayScene(const Scene& scene, const ExperimentContext& context, const ActionClips& clips,
                Table& table, std::vector<Picture>& stills) {
-  const SceneResult result = scene.play(actors, context.seed);
+  const SceneResult result = scene.play(clips, context.seed);
   for (const SceneNumber& n : result.numbers) {
     table.rows.push_back({scene.title, n.what, n.value, n.wanted, n.good ? "yes" : "NO"});
   }
@@ -100,7 +100,7 @@ std::vector<Table> RunShumHo2012(ExperimentContext& context) {
     RequireRecordings(context.shared,
                       {RecordingSet::kUiPrmd, RecordingSet::kKeraal, RecordingSet::kItop});
   }
-  const Actors actors(context.seed);
+  const ActionClips clips(context.seed);
   double done = 0.0;
   const auto begin = [&](const std::string& part) {
     if (!parts.contains(part)) return false;
@@ -112,12 +112,12 @@ std::vector<Table> RunShumHo2012(ExperimentContext& context) {
   Table scenes = SceneTable();
   std::vector<Picture> stills;
   for (const Scene& scene : kScenes) {
-    if (begin(scene.file)) PlayScene(scene, context, actors, scenes, stills);
+    if (begin(scene.file)) PlayScene(scene, context, clips, scenes, stills);
   }
   if (!stills.empty()) WritePicture(context.out / "scenes.png", Sheet(stills, 3));
   if (!scenes.rows.empty()) tables.push_back(scenes);
-  if (begin("filter")) tables.push_back(FilterStudy(context, actors));
-  if (begin("cost")) tables.push_back(CostStudy(context, actors));
+  if (begin("filter")) tables.push_back(FilterStudy(context, clips));
+  if (begin("cost")) tables.push_back(CostStudy(context, clips));
   if (begin("dimensions")) tables.push_back(DimensionStudy(context));
   return tables;
 }

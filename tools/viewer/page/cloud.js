@@ -76,14 +76,14 @@ export class Cloud {
     uniform.value = texture(data, width, height, format);
   }
 
-  show(moment) {
-    this.shown = Boolean(moment.depth);
-    if (!moment.depth) return;
-    const {width, height, camera, step} = moment;
+  show(frame) {
+    this.shown = Boolean(frame.depth);
+    if (!frame.depth) return;
+    const {width, height, camera, step} = frame;
     if (this.uniforms.size.value.x !== width || this.uniforms.size.value.y !== height) this.resize(width, height);
-    this.put('depth', moment.depth, width, height, THREE.LuminanceAlphaFormat);
-    if (moment.users) this.put('users', moment.users, width, height, THREE.LuminanceFormat);
-    if (moment.parts) this.put('parts', moment.parts, width, height, THREE.LuminanceFormat);
+    this.put('depth', frame.depth, width, height, THREE.LuminanceAlphaFormat);
+    if (frame.users) this.put('users', frame.users, width, height, THREE.LuminanceFormat);
+    if (frame.parts) this.put('parts', frame.parts, width, height, THREE.LuminanceFormat);
     this.uniforms.intrinsics.value.set(camera.fx, camera.fy, camera.cx, camera.cy);
     this.uniforms.between.value = step;
   }

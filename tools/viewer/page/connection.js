@@ -10,7 +10,7 @@ function readMeshes(buffer, begin, meshes) {
   });
 }
 
-function readMoment(buffer) {
+function readFrame(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const pixels = header.width * header.height;
@@ -25,8 +25,8 @@ function readMoment(buffer) {
 
 function readAnswer(data) {
   if (data instanceof ArrayBuffer) {
-    const moment = readMoment(data);
-    return {moment, state: moment.state};
+    const frame = readFrame(data);
+    return {frame, state: frame.state};
   }
   const json = JSON.parse(data);
   return json.error ? {error: json.error} : {state: json};
@@ -53,7 +53,7 @@ export class Connection {
     setTimeout(() => this.open(), 1000);
   }
 
-  // {moment, state}, {state}, {error} or {lost: true}.
+  // {frame, state}, {state}, {error} or {lost: true}.
   async request(message) {
     await this.opened;
     if (this.socket.readyState !== WebSocket.OPEN) return this.answerLost();

@@ -27,7 +27,7 @@ class Page {
     this.track = new Track('final');
     this.overlays = [];
     this.loader = new Loader();
-    this.player = new Player(new Connection(), moment => this.show(moment), state => this.updateState(state));
+    this.player = new Player(new Connection(), frame => this.show(frame), state => this.updateState(state));
     const send = request => this.player.send(request);
     this.live = new LivePanel(send);
     this.settings = new SettingsPanel(send);
@@ -51,24 +51,24 @@ class Page {
   get total() {
     return this.state?.kept ? Math.max(this.state.expected ?? 0, this.state.frames) : this.track.length;
   }
-  get index() { return this.state?.kept ? this.moment?.number ?? 0 : this.track.length - 1; }
+  get index() { return this.state?.kept ? this.frame?.number ?? 0 : this.track.length - 1; }
 
   span() { return [Number($('from').value), Number($('to').value)]; }
 
-  show(moment) {
-    this.moment = moment;
-    if (!this.state.kept) this.track.addLive(moment.layers.final);
-    this.live.show(moment);
-    const time_s = moment.layers.final.time_s;
+  show(frame) {
+    this.frame = frame;
+    if (!this.state.kept) this.track.addLive(frame.layers.final);
+    this.live.show(frame);
+    const time_s = frame.layers.final.time_s;
     const over = this.overlays.map(overlay => [...overlay.at(time_s)?.bodies ?? []].map(([id, joints]) => ({id, joints})));
-    this.scene.show(moment, this.track, this.index, over);
-    for (const [name, what] of [['mesh', moment.meshes], ['solids', moment.solids]]) this.revealLayer(name, what.length > 0);
-    showPictures($('depth'), $('parts'), moment);
-    $('pictures').hidden = !moment.depth;
-    $('parts_figure').hidden = !moment.parts;
+    this.scene.show(frame, this.track, this.index, over);
+    for (const [name, what] of [['mesh', frame.meshes], ['solids', frame.solids]]) this.revealLayer(name, what.length > 0);
+    showPictures($('depth'), $('parts'), frame);
+    $('pictures').hidden = !frame.depth;
+    $('parts_figure').hidden = !frame.parts;
     this.showStatus();
     this.drawCharts();
-    this.onShown?.(moment.number);
+    this.onShown?.(frame.number);
   }
 
   // Shows the switch of an optional layer once it has content.
@@ -77,7 +77,7 @@ class Page {
   }
 
   showStatus() {
-    const {final} = this.moment.layers;
+    const {final} = this.frame.layers;
     const count = final.bodies.length;
     const people = `${count} ${count === 1 ? 'person' : 'people'}`;
     $('status').textContent = `frame ${final.frame}, ${final.time_s.toFixed(2)} s, ${people}`;
@@ -99,7 +99,7 @@ class Page {
   }
 
   drawLegend() {
-    const entries = this.moment.layers.final.bodies.map(({id}) => [`person ${id}`, personColour(id)]);
+    const entries = this.frame.layers.final.bodies.map(({id}) => [`person ${id}`, personColour(id)]);
     for (const [name, colour] of Object.entries(LAYERS)) if (this.scene.layers[name].visible) entries.push([name, colour]);
     this.overlays.forEach((overlay, i) => entries.push([overlay.name, overlayColour(i)]));
     $('legend').replaceChildren(...entries.map(([text, colour]) => {
@@ -170,7 +170,7 @@ class Page {
     this.scene.layers[box.dataset.layer].visible = box.checked;
     if (box.dataset.layer === 'mesh') this.scene.showMeshes();
     this.scene.draw();
-    if (this.moment) this.drawLegend();
+    if (this.frame) this.drawLegend();
   }
 
   connectLayers() {

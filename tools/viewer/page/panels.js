@@ -36,14 +36,14 @@ export class LivePanel {
     $('record').onclick = () => send({record: !this.recording});
   }
 
-  show(moment) {
-    $('live').hidden = moment.ms.total === 0;
-    $('stages').replaceChildren(...STAGES.map(name => stageRow(name, moment.ms[name], moment.ms.total)));
+  show(frame) {
+    $('live').hidden = frame.ms.total === 0;
+    $('stages').replaceChildren(...STAGES.map(name => stageRow(name, frame.ms[name], frame.ms.total)));
     const now = performance.now();
     this.arrivals = [...this.arrivals.filter(at => now - at < 2000), now];
     const fps = (this.arrivals.length - 1) / ((now - this.arrivals[0]) / 1000 || 1);
     $('flow').textContent =
-      `${fps.toFixed(0)} frames/s here, ${moment.dropped} dropped, latency ${moment.latency_ms.toFixed(0)} ms`;
+      `${fps.toFixed(0)} frames/s here, ${frame.dropped} dropped, latency ${frame.latency_ms.toFixed(0)} ms`;
   }
 
   update({recording}) {

@@ -18,32 +18,32 @@ function fill(canvas, width, height, colourAt) {
   return context;
 }
 
-function drawSkeletons(context, moment, bodies) {
-  const scale = 1 / moment.step;
+function drawSkeletons(context, frame, bodies) {
+  const scale = 1 / frame.step;
   for (const {id, joints} of bodies) {
     context.strokeStyle = personColour(id);
-    context.lineWidth = Math.max(2, moment.width / 160);
+    context.lineWidth = Math.max(2, frame.width / 160);
     for (const [parent, child] of BONES) {
       const from = joints[parent], to = joints[child];
       if (!from || !to) continue;
       context.globalAlpha = from.state === 'tracked' && to.state === 'tracked' ? 1 : 0.45;
       context.beginPath();
-      context.moveTo(...project(moment.camera, from.p).map(x => x * scale));
-      context.lineTo(...project(moment.camera, to.p).map(x => x * scale));
+      context.moveTo(...project(frame.camera, from.p).map(x => x * scale));
+      context.lineTo(...project(frame.camera, to.p).map(x => x * scale));
       context.stroke();
     }
   }
   context.globalAlpha = 1;
 }
 
-export function showPictures(depthCanvas, partsCanvas, moment) {
-  const {width, height} = moment;
-  if (!moment.depth) return;
-  const mm = new Uint16Array(moment.depth.buffer, moment.depth.byteOffset, width * height);
+export function showPictures(depthCanvas, partsCanvas, frame) {
+  const {width, height} = frame;
+  if (!frame.depth) return;
+  const mm = new Uint16Array(frame.depth.buffer, frame.depth.byteOffset, width * height);
   const depth = fill(depthCanvas, width, height, i => mm[i] ? words[depthColour[mm[i]]] : BLACK);
-  drawSkeletons(depth, moment, moment.layers.final.bodies);
-  if (!moment.parts) return;
-  fill(partsCanvas, width, height, i => moment.parts[i] ? words[512 + moment.parts[i]] : moment.users[i] ? 0xff808080 : BLACK);
+  drawSkeletons(depth, frame, frame.layers.final.bodies);
+  if (!frame.parts) return;
+  fill(partsCanvas, width, height, i => frame.parts[i] ? words[512 + frame.parts[i]] : frame.users[i] ? 0xff808080 : BLACK);
 }
 
 export const RANGE_TEXT = `${NEAR_MM / 1000} m (red) to ${FAR_MM / 1000} m (blue)`;

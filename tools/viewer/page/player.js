@@ -4,7 +4,7 @@ const IDLE_MS = 400;  // between requests for a state that does not change
 const wait = ms => new Promise(resolve => setTimeout(resolve, ms));
 
 export class Player {
-  // show(moment), updateState(state): called for each answer.
+  // show(frame), updateState(state): called for each answer.
   constructor(connection, show, updateState) {
     Object.assign(this, {connection, show, updateState});
     this.index = 0;
@@ -71,10 +71,10 @@ export class Player {
 
   take(answer) {
     if (answer.state) this.takeState(answer.state);
-    if (!answer.moment) return;
-    this.shown = answer.moment.number;
+    if (!answer.frame) return;
+    this.shown = answer.frame.number;
     this.stale = false;
-    this.show(answer.moment);
+    this.show(answer.frame);
     if (this.onceShown?.[0] === this.shown) this.onceShown[1]();
   }
 

@@ -86,21 +86,21 @@ export class Scene {
   }
 
   showMeshes() {
-    if (!this.moment) return;
-    this.meshes.show(this.moment.meshes);
+    if (!this.frame) return;
+    this.meshes.show(this.frame.meshes);
     this.draw();
   }
 
-  // moment: as connection.js reads it; overlays: bodies of each.
-  show(moment, track, index, overlays) {
-    this.moment = moment;
-    this.stand(moment.layers.final.floor);
-    this.cloud.show(moment);
-    this.frustum.show(moment.camera);
-    if (this.layers.mesh.visible) this.meshes.show(moment.meshes);
-    this.solids.show(moment.solids);
+  // frame: as connection.js reads it; overlays: bodies of each.
+  show(frame, track, index, overlays) {
+    this.frame = frame;
+    this.stand(frame.layers.final.floor);
+    this.cloud.show(frame);
+    this.frustum.show(frame.camera);
+    if (this.layers.mesh.visible) this.meshes.show(frame.meshes);
+    this.solids.show(frame.solids);
     for (const [name, figures] of Object.entries(this.figures)) {
-      figures.show(moment.layers[name].bodies, name === 'final' ? personColour : () => LAYERS[name]);
+      figures.show(frame.layers[name].bodies, name === 'final' ? personColour : () => LAYERS[name]);
     }
     overlays.forEach((bodies, i) => this.overlays[i].show(bodies, () => OVERLAYS[i % OVERLAYS.length]));
     this.trails.show(track, index, personColour);
@@ -110,7 +110,7 @@ export class Scene {
   }
 
   followed() {
-    const bodies = this.moment?.layers.final.bodies ?? [];
+    const bodies = this.frame?.layers.final.bodies ?? [];
     const joints = (bodies.find(body => body.id === this.person) ?? bodies[0])?.joints;
     const joint = joints && (joints.Spine ?? joints.HipCenter ?? Object.values(joints)[0]);
     return joint && this.world.localToWorld(new THREE.Vector3(...joint.p));
@@ -145,7 +145,7 @@ export class Scene {
   aim() {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     this.cloud.uniforms.canvasHeight.value = height * this.renderer.getPixelRatio();
-    const camera = this.view === 'camera' && this.moment?.camera;
+    const camera = this.view === 'camera' && this.frame?.camera;
     this.eye.aspect = width / height;
     this.eye.fov = FIELD;
     this.eye.clearViewOffset();
@@ -177,7 +177,7 @@ export class Scene {
 
   drawLabels() {
     this.labels.textContent = '';
-    const bodies = this.layers.final.visible ? this.moment?.layers.final.bodies ?? [] : [];
+    const bodies = this.layers.final.visible ? this.frame?.layers.final.bodies ?? [] : [];
     for (const {id, joints} of bodies) {
       if (joints.Head) this.label(`person ${id}`, this.world.localToWorld(new THREE.Vector3(...joints.Head.p)), '');
     }

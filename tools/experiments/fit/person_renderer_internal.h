@@ -12,7 +12,7 @@
 namespace ossa::tools {
 
 /// Somebody who is rendered: of the shapes kept for tests, from 1.1 to 2.1 m tall.
-struct FilmedPerson {
+struct RenderedPerson {
   double target_m = 0.0;  // of the row in tables
   recon::BodyShape shape;
   double stature_m = 0.0;  // barefoot, without hair
@@ -20,23 +20,23 @@ struct FilmedPerson {
 };
 
 /// Renders people of known stature in motion before a simulated Kinect v1 in an empty room.
-class PeopleFilm {
+class PersonRenderer {
  public:
   static constexpr int kFrames = 90;  // by definition of the question that is asked: 3 s at 30 Hz
 
   /// `per_height` people about 1.1, 1.2, ... 2.1 m tall. Throws InputError where the body was not
   /// fetched.
-  PeopleFilm(ExperimentContext& context, int per_height, bool train_shapes);
-  ~PeopleFilm();
+  PersonRenderer(ExperimentContext& context, int per_height, bool train_shapes);
+  ~PersonRenderer();
 
-  const std::vector<FilmedPerson>& people() const { return people_; }
+  const std::vector<RenderedPerson>& people() const { return people_; }
   /// The person's frames with the true joints and parts; `loose`: in a coat, a skirt or what hangs.
-  std::vector<LabelledFrame> RenderClip(const FilmedPerson& person, bool loose) const;
+  std::vector<LabelledFrame> RenderClip(const RenderedPerson& person, bool loose) const;
 
  private:
-  struct Stage;
-  std::unique_ptr<Stage> stage_;
-  std::vector<FilmedPerson> people_;
+  struct State;
+  std::unique_ptr<State> state_;
+  std::vector<RenderedPerson> people_;
 };
 
 /// How many people are rendered of each height, and whether of the shapes kept for training.

@@ -1,4 +1,4 @@
-#include "tools/experiments/stage/motions.h"
+#include "tools/experiments/simulation/motions.h"
 
 #include <fmt/format.h>
 

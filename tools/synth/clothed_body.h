@@ -19,21 +19,21 @@ recon::BodyModel LoadFetchedBody();
 Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
 
 /// One clothed body before a virtual sensor. Model and wardrobe must outlive it.
-class Actor {
+class ClothedBody {
  public:
-  Actor(const recon::BodyModel& model, const recon::Wardrobe& wardrobe,
-        const recon::BodyShape& shape, const recon::Clothing& clothing);
+  ClothedBody(const recon::BodyModel& model, const recon::Wardrobe& wardrobe,
+              const recon::BodyShape& shape, const recon::Clothing& clothing);
 
   /// Makes it one of the renderer's meshes.
-  void Enter(depth::Renderer& renderer);
+  void AddTo(depth::Renderer& renderer);
   /// Skins into camera space, feet not below the floor at y = 0 of the world; returns the joints
   /// there.
-  recon::Posture Take(const recon::RigPose& pose, const Eigen::Isometry3d& camera_from_world);
+  recon::Posture Pose(const recon::RigPose& pose, const Eigen::Isometry3d& camera_from_world);
   /// Gives the renderer the posture taken last.
-  void Show(depth::Renderer& renderer) const;
+  void UpdateMesh(depth::Renderer& renderer) const;
 
   int mesh() const { return mesh_; }
-  const recon::ShapedBody& body() const { return body_; }
+  const recon::ShapedBody& shape() const { return body_; }
 
  private:
   const recon::BodyModel* model_;
@@ -49,10 +49,10 @@ class Actor {
 void LabelPeople(const depth::RenderedImage& seen, const depth::SensorImage& sensed,
                  const recon::BodyModel& model, std::span<const int> meshes, LabelledFrame* frame);
 
-/// What a structured-light sensor measures of the renderer's scene, labelled: pixels of actor i
+/// What a structured-light sensor measures of the renderer's scene, labelled: pixels of body i
 /// carry the user i + 1 and their part. Bodies are left to the caller.
-LabelledFrame RenderActors(depth::Renderer& renderer, const depth::Camera& camera,
-                           const recon::BodyModel& model, std::span<const Actor> actors,
+LabelledFrame RenderBodies(depth::Renderer& renderer, const depth::Camera& camera,
+                           const recon::BodyModel& model, std::span<const ClothedBody> bodies,
                            uint64_t noise_seed);
 
 }  // namespace ossa::tools

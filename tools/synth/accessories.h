@@ -12,7 +12,7 @@ namespace ossa::tools {
 
 /// What a person has on that is no cloth over the skin: a hat, a bag. Sizes in metres, of a person
 /// of average height.
-struct Worn {
+struct Accessories {
   enum class Hat : uint8_t { kNone, kCap, kBrimmed, kWoolly };
   enum class Bag : uint8_t { kNone, kRucksack, kShoulderBag };
   Hat hat = Hat::kNone;
@@ -24,12 +24,12 @@ struct Worn {
 };
 
 /// A hat in one of three draws, a bag in one of four.
-Worn SampleWorn(Random& random);
+Accessories SampleAccessories(Random& random);
 
 /// Its meshes in camera space on a posed body. A hat has the labels of the upper head, left and
 /// right; a bag is an object, label 32; both are the user's.
-std::vector<Prop> WornProps(const Worn& worn, const recon::RigPose& pose,
-                            const recon::Posture& joints_in_cam, double height_m,
-                            const Eigen::Isometry3d& camera_from_world, uint8_t user);
+std::vector<Prop> AccessoryProps(const Accessories& accessories, const recon::RigPose& pose,
+                                 const recon::Posture& joints_in_cam, double height_m,
+                                 const Eigen::Isometry3d& camera_from_world, uint8_t user);
 
 }  // namespace ossa::tools

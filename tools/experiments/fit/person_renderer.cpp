@@ -3,9 +3,9 @@
 
 #include "depth/render/shapes.h"
 #include "recon/body/clothing.h"
-#include "tools/experiments/fit/filmed_people_internal.h"
-#include "tools/experiments/stage/motions.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/experiments/fit/person_renderer_internal.h"
+#include "tools/experiments/simulation/motions.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/sample_person.h"
 #include "tools/synth/sequence_poses.h"
 
@@ -19,9 +19,9 @@ constexpr size_t kHeights = 11;
 constexpr uint64_t kDraws = 1500;  // of shapes, among which each height has some
 
 // Of the drawn people those nearest to each height.
-std::vector<FilmedPerson> ChoosePeople(const recon::BodyModel& model, Split split, int per_height,
-                                       uint64_t seed) {
-  std::vector<FilmedPerson> drawn, chosen;
+std::vector<RenderedPerson> ChoosePeople(const recon::BodyModel& model, Split split, int per_height,
+                                         uint64_t seed) {
+  std::vector<RenderedPerson> drawn, chosen;
   for (uint64_t k = 0; k < kDraws; ++k) {
     Random random(seed, k);
     const recon::BodyShape shape = SampleAnyShape(split, random);
@@ -42,22 +42,23 @@ std::vector<FilmedPerson> ChoosePeople(const recon::BodyModel& model, Split spli
 
 }  // namespace
 
-struct PeopleFilm::Stage {
+struct PersonRenderer::State {
   recon::BodyModel model = LoadFetchedBody();
   recon::Wardrobe wardrobe{model};
   std::vector<recon::MotionClip> clips;
 };
 
-PeopleFilm::PeopleFilm(ExperimentContext& context, int per_height, bool train_shapes)
-    : stage_(std::make_unique<Stage>()) {
-  stage_->clips =
+PersonRenderer::PersonRenderer(ExperimentContext& context, int per_height, bool train_shapes)
+    : state_(std::make_unique<State>()) {
+  state_->clips =
       AuthoredMotions(context, {"stand", "walk", "wave", "talk", "squat", "raise_arms"}, 2);
-  people_ = ChoosePeople(stage_->model, train_shapes ? Split::kTrain : Split::kTest, per_height,
+  people_ = ChoosePeople(state_->model, train_shapes ? Split::kTrain : Split::kTest, per_height,
                          context.seed);
 }
-PeopleFilm::~PeopleFilm() = default;
+PersonRenderer::~PersonRenderer() = default;
 
-std::vector<LabelledFrame> PeopleFilm::RenderClip(const FilmedPerson& person, bool loose) const {
+std::vector<LabelledFrame> PersonRenderer::RenderClip(const RenderedPerson& person,
+                                                      bool loose) const {
   constexpr double kHeight_m = 1.0, kNearest_m = 3.0, kFarthest_m = 3.8, kAside_rad = 0.6;
   Random random(person.seed, 7);
   recon::Clothing clothing = SampleClothing(random);
@@ -66,18 +67,18 @@ std::vector<LabelledFrame> PeopleFilm::RenderClip(const FilmedPerson& person, bo
   const double azimuth_rad = random.Uniform(-kAside_rad, kAside_rad);
   const Eigen::Isometry3d camera_from_world = LookAt(
       {away_m * std::sin(azimuth_rad), kHeight_m, away_m * std::cos(azimuth_rad)}, {0.0, 0.9, 0.0});
-  const recon::MotionClip& clip = stage_->clips[person.seed % stage_->clips.size()];
-  std::vector<Actor> actors;
-  actors.emplace_back(stage_->model, stage_->wardrobe, person.shape, clothing);
+  const recon::MotionClip& clip = state_->clips[person.seed % state_->clips.size()];
+  std::vector<ClothedBody> bodies;
+  bodies.emplace_back(state_->model, state_->wardrobe, person.shape, clothing);
   depth::Renderer renderer;
-  actors[0].Enter(renderer);
+  bodies[0].AddTo(renderer);
   const Eigen::Affine3f to_camera(camera_from_world.matrix().cast<float>());
   renderer.AddMesh(depth::Moved(depth::MakeRoom({7.0F, 3.0F, 8.0F}), to_camera), false);
   std::vector<LabelledFrame> frames;
   for (const recon::RigPose& pose : SequencePoses({clip}, kFrames, person.seed)) {
-    const recon::Posture joints_m = actors[0].Take(pose, camera_from_world);
-    actors[0].Show(renderer);
-    frames.push_back(RenderActors(renderer, depth::KinectV1Camera(320, 240), stage_->model, actors,
+    const recon::Posture joints_m = bodies[0].Pose(pose, camera_from_world);
+    bodies[0].UpdateMesh(renderer);
+    frames.push_back(RenderBodies(renderer, depth::KinectV1Camera(320, 240), state_->model, bodies,
                                   person.seed * 1000003 + frames.size()));
     frames.back().depth.index = static_cast<int64_t>(frames.size() - 1);
     frames.back().depth.time_s = static_cast<double>(frames.size() - 1) / 30.0;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "recon/fit/surface_fit.h"
-#include "tools/experiments/fit/filmed_people_internal.h"
+#include "tools/experiments/fit/person_renderer_internal.h"
 #include "tools/tracker/tracker.h"
 
 namespace ossa::tools {
@@ -22,7 +22,7 @@ struct Outcome {
 
 /// The shipped models, or those of the command line.
 tracker::TrackerOptions TrackerOptionsOf(const ExperimentContext& context);
-Outcome TrackPerson(const FilmedPerson& person, const std::vector<LabelledFrame>& frames,
+Outcome TrackPerson(const RenderedPerson& person, const std::vector<LabelledFrame>& frames,
                     const tracker::TrackerOptions& options);
 
 /// The fitted body at these joints; null where there is none.

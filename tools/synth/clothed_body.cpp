@@ -1,4 +1,4 @@
-#include "tools/synth/clothed_actor.h"
+#include "tools/synth/clothed_body.h"
 
 #include <algorithm>
 #include <limits>
@@ -25,8 +25,8 @@ Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
   return camera_from_world;
 }
 
-Actor::Actor(const recon::BodyModel& model, const recon::Wardrobe& wardrobe,
-             const recon::BodyShape& shape, const recon::Clothing& clothing)
+ClothedBody::ClothedBody(const recon::BodyModel& model, const recon::Wardrobe& wardrobe,
+                         const recon::BodyShape& shape, const recon::Clothing& clothing)
     : model_(&model),
       wardrobe_(&wardrobe),
       body_(model.Shape(shape)),
@@ -34,11 +34,12 @@ Actor::Actor(const recon::BodyModel& model, const recon::Wardrobe& wardrobe,
       rest_m_(wardrobe.Dress(body_, clothing)),
       posed_m_(model.vertex_count()) {}
 
-void Actor::Enter(depth::Renderer& renderer) {
+void ClothedBody::AddTo(depth::Renderer& renderer) {
   mesh_ = renderer.AddMesh({rest_m_, model_->triangles()}, true);
 }
 
-recon::Posture Actor::Take(const recon::RigPose& pose, const Eigen::Isometry3d& camera_from_world) {
+recon::Posture ClothedBody::Pose(const recon::RigPose& pose,
+                                 const Eigen::Isometry3d& camera_from_world) {
   model_->Skin(body_, rest_m_, pose, camera_from_world, posed_m_);
   recon::Posture joints = recon::ComputeJoints(body_, pose);
   for (auto& joint_m : joints.position_m) joint_m = camera_from_world * joint_m;
@@ -55,7 +56,9 @@ recon::Posture Actor::Take(const recon::RigPose& pose, const Eigen::Isometry3d& 
   return joints;
 }
 
-void Actor::Show(depth::Renderer& renderer) const { renderer.UpdateVertices(mesh_, posed_m_); }
+void ClothedBody::UpdateMesh(depth::Renderer& renderer) const {
+  renderer.UpdateVertices(mesh_, posed_m_);
+}
 
 void LabelPeople(const depth::RenderedImage& seen, const depth::SensorImage& sensed,
                  const recon::BodyModel& model, std::span<const int> meshes, LabelledFrame* frame) {
@@ -72,13 +75,13 @@ void LabelPeople(const depth::RenderedImage& seen, const depth::SensorImage& sen
   }
 }
 
-LabelledFrame RenderActors(depth::Renderer& renderer, const depth::Camera& camera,
-                           const recon::BodyModel& model, std::span<const Actor> actors,
+LabelledFrame RenderBodies(depth::Renderer& renderer, const depth::Camera& camera,
+                           const recon::BodyModel& model, std::span<const ClothedBody> bodies,
                            uint64_t noise_seed) {
   const depth::RenderedImage seen = renderer.Render(camera, {.projector = true});
   depth::SensorImage sensed = depth::SimulateStructuredLight(seen, camera, {}, noise_seed);
   std::vector<int> meshes;
-  for (const Actor& actor : actors) meshes.push_back(actor.mesh());
+  for (const ClothedBody& body : bodies) meshes.push_back(body.mesh());
   LabelledFrame frame;
   frame.depth.camera = camera;
   LabelPeople(seen, sensed, model, meshes, &frame);

@@ -1,4 +1,4 @@
-#include "tools/experiments/stage/staged_internal.h"
+#include "tools/experiments/simulation/recording_simulator_internal.h"
 
 namespace ossa::tools {
 
@@ -10,7 +10,7 @@ Eigen::Vector3d SimulatedSdk::Noise(double deviation_m) {
   return {x, y, random_.Normal(0, deviation_m)};
 }
 
-Eigen::Vector3d SimulatedSdk::Hidden(const StagedFrame& frame, const Eigen::Vector3d& true_m,
+Eigen::Vector3d SimulatedSdk::Hidden(const SequenceFrame& frame, const Eigen::Vector3d& true_m,
                                      const Eigen::Vector3d& hips_m, JointMemory& memory) {
   constexpr double kGrabbedShare =
       0.5;                            // share of the occluded joints that jump to what hides them
@@ -41,7 +41,7 @@ Eigen::Vector3d SimulatedSdk::Hidden(const StagedFrame& frame, const Eigen::Vect
                           : Eigen::Vector3d(true_m + memory.wander_m);
 }
 
-recon::SkeletonFrame SimulatedSdk::Observe(const StagedFrame& frame) {
+recon::SkeletonFrame SimulatedSdk::Observe(const SequenceFrame& frame) {
   constexpr double kJitter_m = 0.006;
   constexpr double kDrift_m = 0.015;  // standard deviation of the slow part
   constexpr double kKeep = 0.95;      // of the drift from one frame to the next; factor a frame

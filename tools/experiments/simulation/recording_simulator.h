@@ -24,7 +24,7 @@ enum class Clutter {
 
 /// A performance before a virtual sensor. The clip is turned so that it begins facing the sensor
 /// when the azimuth is zero.
-struct StageOptions {
+struct SequenceOptions {
   std::string name;
   Clutter clutter = Clutter::kNone;
   double azimuth_rad = 0.0;  // of the sensor about the person; negative: on the person's right
@@ -36,30 +36,31 @@ struct StageOptions {
 };
 
 /// One frame: what the sensor measures, and the true joints, hidden ones too.
-struct StagedFrame {
+struct SequenceFrame {
   depth::DepthFrame depth;
   recon::SkeletonFrame truth;  // one body, id 1, with JointRecord::visible
 };
 
 /// Renders performances with Embree and records them as a sensor's software would: observed and
 /// true skeletons, frame by frame. Bodies are of the shapes kept for tests.
-class Studio {
+class RecordingSimulator {
  public:
   /// `observer`: "forest", the tracker's raw joints (needs a model), or "simulated", joints made up
   /// from the truth and the depth image as the Kinect's SDK was seen to fail. Reads the body model
   /// only when something must be rendered.
-  Studio(const ExperimentContext& context, std::string observer);
-  ~Studio();
+  RecordingSimulator(const ExperimentContext& context, std::string observer);
+  ~RecordingSimulator();
 
   /// Cached by content. Begins with the first frame in which half of the joints are found; empty
   /// where none is.
-  RecordedPair Record(const recon::MotionClip& clip, const StageOptions& options);
+  RecordedPair Record(const recon::MotionClip& clip, const SequenceOptions& options);
   /// The frames themselves, uncached: for pictures and tests.
-  std::vector<StagedFrame> RenderClip(const recon::MotionClip& clip, const StageOptions& options);
+  std::vector<SequenceFrame> RenderClip(const recon::MotionClip& clip,
+                                        const SequenceOptions& options);
 
  private:
   // Uncached, and from the first frame on.
-  RecordedPair Observe(const recon::MotionClip& clip, const StageOptions& options);
+  RecordedPair Observe(const recon::MotionClip& clip, const SequenceOptions& options);
 
   struct State;
   std::unique_ptr<State> state_;

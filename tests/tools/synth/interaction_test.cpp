@@ -1,4 +1,4 @@
-#include "tools/synth/staging.h"
+#include "tools/synth/interaction.h"
 
 #include <gtest/gtest.h>
 
@@ -13,28 +13,29 @@ namespace {
 using recon::Joint;
 
 struct Staged {
-  Staging staging = Staging::kNone;
+  Interaction interaction = Interaction::kNone;
   recon::Posture joints;
   std::vector<Prop> props;
 };
 
 /// Somebody upright with things; the world is the camera's space, y up, facing +z.
-Staged Stage(Staging staging, uint64_t seed) {
+Staged Stage(Interaction interaction, uint64_t seed) {
   Random random(seed, 1);
   recon::RigPose pose;
   pose.root_m = recon::StandardRigRest().head_m[0];
   Staged staged;
-  staged.staging = Arrange(staging, &pose, random);
+  staged.interaction = ArrangeArms(interaction, &pose, random);
   staged.joints = recon::StandardPosture(pose);
-  staged.props = StagedProps(staged.staging, staged.joints, Eigen::Isometry3d::Identity(), random);
+  staged.props =
+      InteractionProps(staged.interaction, staged.joints, Eigen::Isometry3d::Identity(), random);
   return staged;
 }
 
-TEST(Staging, HandsComeBeforeTheChestAndAThingIsBetweenThem) {
+TEST(Interaction, HandsComeBeforeTheChestAndAThingIsBetweenThem) {
   int between = 0;
   for (uint64_t seed = 0; seed < 20; ++seed) {
-    const Staged staged = Stage(Staging::kHeldUp, seed);
-    ASSERT_EQ(staged.staging, Staging::kHeldUp);
+    const Staged staged = Stage(Interaction::kHeldUp, seed);
+    ASSERT_EQ(staged.interaction, Interaction::kHeldUp);
     const auto& joints = staged.joints;
     EXPECT_GT(joints[Joint::kHandLeft].z(), joints[Joint::kShoulderCenter].z() + 0.1);
     EXPECT_GT(joints[Joint::kHandLeft].x(), joints[Joint::kHandRight].x());
@@ -49,10 +50,10 @@ TEST(Staging, HandsComeBeforeTheChestAndAThingIsBetweenThem) {
   EXPECT_GE(between, 18);
 }
 
-TEST(Staging, ForearmsLieOnTheDesk) {
+TEST(Interaction, ForearmsLieOnTheDesk) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
-    const Staged staged = Stage(Staging::kAtDesk, seed);
-    ASSERT_EQ(staged.staging, Staging::kAtDesk);
+    const Staged staged = Stage(Interaction::kAtDesk, seed);
+    ASSERT_EQ(staged.interaction, Interaction::kAtDesk);
     float top_m = 0;  // of the table; what lies on it comes after
     for (const auto& p : staged.props[0].mesh_in_cam.vertices_m) top_m = std::max(top_m, p.y());
     for (const Joint joint :
@@ -64,24 +65,24 @@ TEST(Staging, ForearmsLieOnTheDesk) {
   }
 }
 
-TEST(Staging, WhoLiesHoldsNothingUp) {
+TEST(Interaction, WhoLiesHoldsNothingUp) {
   Random random(1, 1);
   recon::RigPose pose;
   const Eigen::Quaterniond back(Eigen::AngleAxisd(-1.57, Eigen::Vector3d::UnitX()));
   for (auto& q : pose.world_from_rest) q = back;
   const recon::RigPose before = pose;
-  EXPECT_EQ(Arrange(Staging::kHeldUp, &pose, random), Staging::kNone);
+  EXPECT_EQ(ArrangeArms(Interaction::kHeldUp, &pose, random), Interaction::kNone);
   EXPECT_TRUE(pose.world_from_rest[20].isApprox(before.world_from_rest[20]));
 }
 
-TEST(Staging, IsAskedForByNameAndLeavesTheOldOccludersAlone) {
+TEST(Interaction, IsAskedForByNameAndLeavesTheOldOccludersAlone) {
   Random random(1, 1);
-  EXPECT_EQ(DrawStaging(*OccludersFromName("held-up"), random), Staging::kHeldUp);
+  EXPECT_EQ(DrawInteraction(*OccludersFromName("held-up"), random), Interaction::kHeldUp);
   for (const char* name : {"none", "held", "scene", "any"}) {
-    EXPECT_EQ(DrawStaging(*OccludersFromName(name), random), Staging::kNone) << name;
+    EXPECT_EQ(DrawInteraction(*OccludersFromName(name), random), Interaction::kNone) << name;
   }
-  std::set<Staging> drawn;
-  for (int i = 0; i < 400; ++i) drawn.insert(DrawStaging(*OccludersFromName("all"), random));
+  std::set<Interaction> drawn;
+  for (int i = 0; i < 400; ++i) drawn.insert(DrawInteraction(*OccludersFromName("all"), random));
   EXPECT_EQ(drawn.size(), 6u);
 }
 

@@ -1,4 +1,4 @@
-#include "tools/experiments/fit/watched_people_internal.h"
+#include "tools/experiments/fit/track_person_internal.h"
 
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ const tracker::Body* PersonIn(const tracker::BodyFrame& seen, const recon::Postu
   return nullptr;
 }
 
-Outcome TrackPerson(const FilmedPerson& person, const std::vector<LabelledFrame>& frames,
+Outcome TrackPerson(const RenderedPerson& person, const std::vector<LabelledFrame>& frames,
                     const tracker::TrackerOptions& options) {
   tracker::Tracker tracker(options);
   Outcome outcome;

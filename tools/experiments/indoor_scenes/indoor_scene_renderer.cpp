@@ -83,18 +83,19 @@ std::vector<IndoorScenario> IndoorScenarios() {
   return all;
 }
 
-IndoorStage::IndoorStage(const IndoorScenario& scenario, const IndoorCast& cast, uint64_t seed)
+IndoorSceneRenderer::IndoorSceneRenderer(const IndoorScenario& scenario,
+                                         const IndoorSceneInputs& inputs, uint64_t seed)
     : scenario_(scenario),
-      cast_(cast),
+      inputs_(inputs),
       seed_(seed),
-      camera_(depth::KinectV1Camera(cast.width, cast.height)) {
+      camera_(depth::KinectV1Camera(inputs.width, inputs.height)) {
   Random random(seed, 5);
   PlaceSensor(random);
   PlacePeople(random);
   Furnish(random);
 }
 
-void IndoorStage::PlaceSensor(Random& random) {
+void IndoorSceneRenderer::PlaceSensor(Random& random) {
   // Lanes and rows of many people need more room than one.
   distance_m_ = scenario_.close ? random.Uniform(1.4, 1.8)
                                 : random.Uniform(2.2, 2.9) + 0.22 * (scenario_.people - 1);
@@ -104,19 +105,19 @@ void IndoorStage::PlaceSensor(Random& random) {
   camera_from_world_ = LookAt({0, height_m, distance_m_}, {0, aim_m, 0});
 }
 
-void IndoorStage::PlacePeople(Random& random) {
+void IndoorSceneRenderer::PlacePeople(Random& random) {
   for (int person = 0; person < scenario_.people; ++person) {
-    const recon::BodyShape shape = SampleShape(cast_.split, random);
-    actors_.emplace_back(cast_.model, cast_.wardrobe, shape, SampleClothing(random));
-    actors_.back().Enter(renderer_);
+    const recon::BodyShape shape = SampleShape(inputs_.split, random);
+    bodies_.emplace_back(inputs_.model, inputs_.wardrobe, shape, SampleClothing(random));
+    bodies_.back().AddTo(renderer_);
     ways_.push_back(scenario_.crossing ? Crossing(person, random) : Staying(person, random));
   }
 }
 
 // In columns side by side, every other one nearer.
-IndoorStage::Way IndoorStage::Staying(int person, Random& random) const {
+IndoorSceneRenderer::Way IndoorSceneRenderer::Staying(int person, Random& random) const {
   Way way;
-  way.poses = SequencePoses(cast_.clips, cast_.frames, random.Bits());
+  way.poses = SequencePoses(inputs_.clips, inputs_.frames, random.Bits());
   const double column =
       scenario_.people == 1 ? random.Uniform(-0.3, 0.3) : 2 * (person + 0.5) / scenario_.people - 1;
   const double row_m = scenario_.people == 1 ? 0.0 : person % 2 ? 0.45 : -0.35;
@@ -128,10 +129,10 @@ IndoorStage::Way IndoorStage::Staying(int person, Random& random) const {
 }
 
 // On lanes at different depths, from left to right and from right to left in turn.
-IndoorStage::Way IndoorStage::Crossing(int person, Random& random) const {
+IndoorSceneRenderer::Way IndoorSceneRenderer::Crossing(int person, Random& random) const {
   constexpr double kLane_m = 0.85;
   Way way;
-  way.poses = WalkPoses(cast_.clips, cast_.frames, random);
+  way.poses = WalkPoses(inputs_.clips, inputs_.frames, random);
   const double side = person % 2 ? 1 : -1;
   const double z_m = kLane_m * (person - 0.5 * (scenario_.people - 1));
   const double half_m = kHalfView * std::max(1.2, distance_m_ - z_m) * random.Uniform(0.7, 0.95);
@@ -143,7 +144,7 @@ IndoorStage::Way IndoorStage::Crossing(int person, Random& random) const {
 
 // A clip shorter than the performance is played to and fro, a walk more slowly. Where the walk
 // itself is shorter or longer than its lane, the feet slide a little.
-recon::RigPose IndoorStage::PoseAt(const Way& way, double root_scale, int64_t index) const {
+recon::RigPose IndoorSceneRenderer::PoseAt(const Way& way, double root_scale, int64_t index) const {
   const auto count = std::ssize(way.poses);
   const double share =
       static_cast<double>(index) / static_cast<double>(std::max<int64_t>(1, size() - 1));
@@ -164,16 +165,17 @@ recon::RigPose IndoorStage::PoseAt(const Way& way, double root_scale, int64_t in
   return pose;
 }
 
-void IndoorStage::Stand(const depth::TriangleMesh& mesh, const Vector3d& place_m, double turn_rad) {
-  Eigen::Affine3f place(camera_from_world_.matrix().cast<float>());
-  place.translate(place_m.cast<float>());
+void IndoorSceneRenderer::Stand(const depth::TriangleMesh& mesh, const Vector3d& place_m,
+                                double turn_rad) {
+  Eigen::Affine3f place(camera_from_world_.matrix().inputs<float>());
+  place.translate(place_m.inputs<float>());
   place.rotate(Eigen::AngleAxisf(static_cast<float>(turn_rad), Vector3f::UnitY()));
   renderer_.AddMesh(depth::Moved(mesh, place), false);
 }
 
 // Somebody behind a back rest, or before a sofa that shows the sensor its back: from the hips down,
 // or more, they are hidden.
-void IndoorStage::StandSofaBefore(const Vector3d& person_m, Random& random) {
+void IndoorSceneRenderer::StandSofaBefore(const Vector3d& person_m, Random& random) {
   constexpr double kDepth_m = 0.6, kBack_m = 0.2;
   const auto width_m = static_cast<float>(random.Uniform(0.5, 1.6));
   const auto seat_m = static_cast<float>(random.Uniform(0.5, 0.85));
@@ -185,7 +187,7 @@ void IndoorStage::StandSofaBefore(const Vector3d& person_m, Random& random) {
         back_to_sensor ? std::numbers::pi : 0.0);
 }
 
-void IndoorStage::Furnish(Random& random) {
+void IndoorSceneRenderer::Furnish(Random& random) {
   const double rear_m = 0.45 + 0.45 * (scenario_.people - 1);  // behind the last lane or row
   const bool tight = scenario_.furnishing == Furnishing::kWall;
   const double behind_m = tight && scenario_.people == 1 ? 0.45 : rear_m + random.Uniform(0.3, 1.5);
@@ -219,15 +221,15 @@ void IndoorStage::Furnish(Random& random) {
   }
 }
 
-LabelledFrame IndoorStage::RenderFrame(int64_t index) {
+LabelledFrame IndoorSceneRenderer::RenderFrame(int64_t index) {
   std::vector<TruthBody> bodies;
-  for (size_t person = 0; person < actors_.size(); ++person) {
-    Actor& actor = actors_[person];
-    const auto pose = PoseAt(ways_[person], actor.body().root_scale, index);
-    bodies.push_back({static_cast<int>(person) + 1, actor.Take(pose, camera_from_world_), {}});
-    actor.Show(renderer_);
+  for (size_t person = 0; person < bodies_.size(); ++person) {
+    ClothedBody& body = bodies_[person];
+    const auto pose = PoseAt(ways_[person], body.shape().root_scale, index);
+    bodies.push_back({static_cast<int>(person) + 1, body.Pose(pose, camera_from_world_), {}});
+    body.UpdateMesh(renderer_);
   }
-  LabelledFrame frame = RenderActors(renderer_, camera_, cast_.model, actors_,
+  LabelledFrame frame = RenderBodies(renderer_, camera_, inputs_.model, bodies_,
                                      seed_ * 1000003 + static_cast<uint64_t>(index));
   frame.depth.index = index;
   frame.depth.time_s = static_cast<double>(index) / 30.0;

@@ -1,4 +1,4 @@
-#include "tools/experiments/stage/staged.h"
+#include "tools/experiments/simulation/recording_simulator.h"
 
 #include <fmt/format.h>
 
@@ -16,8 +16,8 @@
 #include "recon/refine/refinement_cascade.h"
 #include "tools/experiments/compare/sequence_text.h"
 #include "tools/experiments/context_models.h"
-#include "tools/experiments/stage/staged_internal.h"
-#include "tools/synth/clothed_actor.h"
+#include "tools/experiments/simulation/recording_simulator_internal.h"
+#include "tools/synth/clothed_body.h"
 #include "tools/synth/dataset.h"
 #include "tools/synth/props.h"
 #include "tools/synth/sample_person.h"
@@ -34,7 +34,7 @@ namespace {
 
 constexpr double kSensorHeight_m = 1.0;
 
-Eigen::Isometry3d CameraPlace(const StageOptions& options) {
+Eigen::Isometry3d CameraPlace(const SequenceOptions& options) {
   const Eigen::Vector3d eye(options.distance_m * std::sin(options.azimuth_rad), kSensorHeight_m,
                             options.distance_m * std::cos(options.azimuth_rad));
   return LookAt(eye, {0, 0.9, 0});
@@ -60,7 +60,7 @@ depth::TriangleMesh RoomAround() {
 
 }  // namespace
 
-struct Studio::State {
+struct RecordingSimulator::State {
   explicit State(const ExperimentContext& given, std::string how)
       : context(given), observer(std::move(how)) {}
 
@@ -79,11 +79,11 @@ struct Studio::State {
 
 namespace {
 
-// One performance being rendered.
-class Set {
+// One sequence being rendered.
+class SequenceRenderer {
  public:
-  Set(const recon::BodyModel& model, const recon::Wardrobe& wardrobe, const recon::MotionClip& clip,
-      const StageOptions& options)
+  SequenceRenderer(const recon::BodyModel& model, const recon::Wardrobe& wardrobe,
+                   const recon::MotionClip& clip, const SequenceOptions& options)
       : model_(model),
         options_(options),
         camera_(depth::KinectV1Camera(options.width, options.height)),
@@ -91,8 +91,8 @@ class Set {
         poses_(SequencePoses({clip}, options.frames, options.seed)) {
     Random random(options.seed, 1);
     const recon::BodyShape shape = SampleShape(Split::kTest, random);
-    actors_.emplace_back(model, wardrobe, shape, SampleClothing(random));
-    actors_[0].Enter(renderer_);
+    bodies_.emplace_back(model, wardrobe, shape, SampleClothing(random));
+    bodies_[0].AddTo(renderer_);
     const Eigen::Affine3f to_camera(camera_from_world_.matrix().cast<float>());
     renderer_.AddMesh(depth::Moved(RoomAround(), to_camera), false);
     if (options.clutter == Clutter::kCarSeat) {
@@ -105,42 +105,42 @@ class Set {
   }
 
   size_t size() const { return poses_.size(); }
-  StagedFrame RenderFrame(size_t index);
+  SequenceFrame RenderFrame(size_t index);
 
  private:
   std::vector<Prop> Props(Occluders kind) const;
   LabelledFrame RenderDepth(size_t index, const recon::Posture& joints);
 
   const recon::BodyModel& model_;
-  StageOptions options_;
+  SequenceOptions options_;
   depth::Camera camera_;
   Eigen::Isometry3d camera_from_world_;
   std::vector<recon::RigPose> poses_;
-  std::vector<Actor> actors_;  // one
+  std::vector<ClothedBody> bodies_;  // one
   depth::Renderer renderer_;
   std::vector<Prop> held_;  // as in the first posture
 };
 
 // Objects between the person's whole path and the sensor, or held in the first posture.
-std::vector<Prop> Set::Props(Occluders kind) const {
+std::vector<Prop> SequenceRenderer::Props(Occluders kind) const {
   if (poses_.empty()) return {};
   std::vector<recon::Posture> path_in_world;
   for (const recon::RigPose& pose : poses_)
-    path_in_world.push_back(recon::ComputeJoints(actors_[0].body(), pose));
+    path_in_world.push_back(recon::ComputeJoints(bodies_[0].shape(), pose));
   Random random(options_.seed, 2);
   return SampleLastingProps(kind, path_in_world, camera_from_world_, random);
 }
 
-LabelledFrame Set::RenderDepth(size_t index, const recon::Posture& joints) {
+LabelledFrame SequenceRenderer::RenderDepth(size_t index, const recon::Posture& joints) {
   std::vector<int> held;
   if (!held_.empty()) {
-    recon::Posture first = recon::ComputeJoints(actors_[0].body(), poses_[0]);
+    recon::Posture first = recon::ComputeJoints(bodies_[0].shape(), poses_[0]);
     for (auto& joint_m : first.position_m) joint_m = camera_from_world_ * joint_m;
     for (const Prop& prop : held_)
       held.push_back(renderer_.AddMesh(Carried(prop, first, joints).mesh_in_cam, false));
   }
   LabelledFrame frame =
-      RenderActors(renderer_, camera_, model_, actors_, options_.seed * 1000003 + index);
+      RenderBodies(renderer_, camera_, model_, bodies_, options_.seed * 1000003 + index);
   for (const int mesh : held) renderer_.RemoveMesh(mesh);
   frame.depth.index = static_cast<int64_t>(index);
   frame.depth.time_s = static_cast<double>(index) / 30.0;
@@ -149,15 +149,15 @@ LabelledFrame Set::RenderDepth(size_t index, const recon::Posture& joints) {
   return frame;
 }
 
-StagedFrame Set::RenderFrame(size_t index) {
-  const recon::Posture joints = actors_[0].Take(poses_[index], camera_from_world_);
-  actors_[0].Show(renderer_);
+SequenceFrame SequenceRenderer::RenderFrame(size_t index) {
+  const recon::Posture joints = bodies_[0].Pose(poses_[index], camera_from_world_);
+  bodies_[0].UpdateMesh(renderer_);
   LabelledFrame labelled = RenderDepth(index, joints);
-  StagedFrame staged;
-  staged.truth.frame = labelled.depth.index;
-  staged.truth.time_s = labelled.depth.time_s;
+  SequenceFrame frame;
+  frame.truth.frame = labelled.depth.index;
+  frame.truth.time_s = labelled.depth.time_s;
   const Eigen::Vector3d up = camera_from_world_.linear().col(1);
-  staged.truth.floor =
+  frame.truth.floor =
       Eigen::Vector4d(up.x(), up.y(), up.z(), -up.dot(camera_from_world_.translation()));
   recon::BodyRecord body;
   body.id = 1;
@@ -167,9 +167,9 @@ StagedFrame Set::RenderFrame(size_t index) {
     joint.visible = labelled.bodies[0].visible[j];
     body.joints[j] = joint;
   }
-  staged.truth.bodies.push_back(body);
-  staged.depth = std::move(labelled.depth);
-  return staged;
+  frame.truth.bodies.push_back(body);
+  frame.depth = std::move(labelled.depth);
+  return frame;
 }
 
 // Of the tracker's bodies the one that is the person: nearest to the true one. Nobody found gives
@@ -236,7 +236,7 @@ void BeginWhenFound(RecordedPair& pair) {
 
 namespace {
 
-std::string ComputeKey(const StageOptions& o) {
+std::string ComputeKey(const SequenceOptions& o) {
   return fmt::format("{} {} {:.4f} {:.3f} {}x{} {} seed {}", o.name, static_cast<int>(o.clutter),
                      o.azimuth_rad, o.distance_m, o.width, o.height, o.frames, o.seed);
 }
@@ -249,7 +249,7 @@ std::string ComputeKey(const recon::MotionClip& clip) {
 
 }  // namespace
 
-Studio::Studio(const ExperimentContext& context, std::string observer)
+RecordingSimulator::RecordingSimulator(const ExperimentContext& context, std::string observer)
     : state_(std::make_unique<State>(context, std::move(observer))) {
   if (state_->observer == "forest") {
     state_->files = FindObserverFiles(context.model);
@@ -257,14 +257,14 @@ Studio::Studio(const ExperimentContext& context, std::string observer)
     throw InputError("observer '" + state_->observer + "': expected forest or simulated");
   }
 }
-Studio::~Studio() = default;
+RecordingSimulator::~RecordingSimulator() = default;
 
-std::vector<StagedFrame> Studio::RenderClip(const recon::MotionClip& clip,
-                                            const StageOptions& options) {
+std::vector<SequenceFrame> RecordingSimulator::RenderClip(const recon::MotionClip& clip,
+                                                          const SequenceOptions& options) {
   state_->LoadBodyOnce();
-  Set set(*state_->model, *state_->wardrobe, clip, options);
-  std::vector<StagedFrame> frames;
-  for (size_t f = 0; f < set.size(); ++f) frames.push_back(set.RenderFrame(f));
+  SequenceRenderer renderer(*state_->model, *state_->wardrobe, clip, options);
+  std::vector<SequenceFrame> frames;
+  for (size_t f = 0; f < renderer.size(); ++f) frames.push_back(renderer.RenderFrame(f));
   return frames;
 }
 
@@ -304,16 +304,17 @@ RecordedPair ParseRecording(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-RecordedPair Studio::Observe(const recon::MotionClip& clip, const StageOptions& options) {
+RecordedPair RecordingSimulator::Observe(const recon::MotionClip& clip,
+                                         const SequenceOptions& options) {
   state_->LoadBodyOnce();
-  Set set(*state_->model, *state_->wardrobe, clip, options);
+  SequenceRenderer renderer(*state_->model, *state_->wardrobe, clip, options);
   std::optional<tracker::Tracker> tracker;
   if (state_->observer == "forest") tracker.emplace(MakeObserver(state_->context, state_->files));
   SimulatedSdk sdk(options.seed);
   RecordedPair pair;
-  for (size_t f = 0; f < set.size(); ++f) {
+  for (size_t f = 0; f < renderer.size(); ++f) {
     state_->context.ThrowIfInterrupted();
-    const StagedFrame frame = set.RenderFrame(f);
+    const SequenceFrame frame = renderer.RenderFrame(f);
     pair.truth.frames.push_back(frame.truth);
     if (!tracker) {
       pair.observed.frames.push_back(sdk.Observe(frame));
@@ -330,7 +331,8 @@ RecordedPair Studio::Observe(const recon::MotionClip& clip, const StageOptions& 
   return pair;
 }
 
-RecordedPair Studio::Record(const recon::MotionClip& clip, const StageOptions& options) {
+RecordedPair RecordingSimulator::Record(const recon::MotionClip& clip,
+                                        const SequenceOptions& options) {
   std::string key = fmt::format("staged {} {} {} {}", ComputeCodeKey(), state_->observer,
                                 ComputeKey(options), ComputeKey(clip));
   for (const auto& path : state_->files.All()) key.append(" ").append(ComputeFileKey(path));

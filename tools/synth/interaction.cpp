@@ -1,4 +1,4 @@
-#include "tools/synth/staging.h"
+#include "tools/synth/interaction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -240,59 +240,59 @@ void AddArmrests(const recon::Posture& joints, Random& random, std::vector<Prop>
   box({Draw(random, 0.4, 0.6), back_m, 0.06F}, behind_m);
 }
 
-bool AreArmsAt(Staging staging, const recon::RigPose& pose) {
-  if (staging == Staging::kHeldUp) return HasHandsInFront(pose);
-  if (staging == Staging::kCrutches) return HoldsCrutch(pose);
+bool AreArmsAt(Interaction interaction, const recon::RigPose& pose) {
+  if (interaction == Interaction::kHeldUp) return HasHandsInFront(pose);
+  if (interaction == Interaction::kCrutches) return HoldsCrutch(pose);
   return IsForearmLevel(pose);
 }
 
 }  // namespace
 
-Staging DrawStaging(Occluders kind, Random& random) {
-  if (kind == Occluders::kHeldUp) return Staging::kHeldUp;
-  if (kind == Occluders::kWheelchair) return Staging::kWheelchair;
-  if (kind == Occluders::kCrutches) return Staging::kCrutches;
+Interaction DrawInteraction(Occluders kind, Random& random) {
+  if (kind == Occluders::kHeldUp) return Interaction::kHeldUp;
+  if (kind == Occluders::kWheelchair) return Interaction::kWheelchair;
+  if (kind == Occluders::kCrutches) return Interaction::kCrutches;
   const double draw = random.Unit();
-  if (kind == Occluders::kDesk) return draw < 0.7 ? Staging::kAtDesk : Staging::kArmrests;
-  if (kind != Occluders::kAll) return Staging::kNone;
-  return draw < 0.2    ? Staging::kHeldUp
-         : draw < 0.3  ? Staging::kAtDesk
-         : draw < 0.35 ? Staging::kArmrests
-         : draw < 0.38 ? Staging::kWheelchair
-         : draw < 0.41 ? Staging::kCrutches
-                       : Staging::kNone;
+  if (kind == Occluders::kDesk) return draw < 0.7 ? Interaction::kAtDesk : Interaction::kArmrests;
+  if (kind != Occluders::kAll) return Interaction::kNone;
+  return draw < 0.2    ? Interaction::kHeldUp
+         : draw < 0.3  ? Interaction::kAtDesk
+         : draw < 0.35 ? Interaction::kArmrests
+         : draw < 0.38 ? Interaction::kWheelchair
+         : draw < 0.41 ? Interaction::kCrutches
+                       : Interaction::kNone;
 }
 
-Staging Arrange(Staging staging, recon::RigPose* pose, Random& random) {
+Interaction ArrangeArms(Interaction interaction, recon::RigPose* pose, Random& random) {
   constexpr double kUpright = 0.85;  // cosine of the chest's lean
   constexpr int kMostTries = 200;    // of an arm; most take a tenth of it
-  if (staging == Staging::kNone) return staging;
+  if (interaction == Interaction::kNone) return interaction;
   const Vector3d up = pose->world_from_rest[kSpine1] * Vector3d::UnitY();
-  if (up.y() < kUpright) return Staging::kNone;
-  if (staging == Staging::kWheelchair) {
+  if (up.y() < kUpright) return Interaction::kNone;
+  if (interaction == Interaction::kWheelchair) {
     constexpr double kArmsRest = 0.5;  // share of who sits in one; of others arms stay; by hand
     SitDown(pose, random);
-    if (!random.Chance(kArmsRest)) return staging;
+    if (!random.Chance(kArmsRest)) return interaction;
   }
   recon::RigPose tried = *pose;
   for (int i = 0; i < kMostTries; ++i) {
     RandomArm(0, &tried, random);
-    if (!AreArmsAt(staging, tried)) continue;
+    if (!AreArmsAt(interaction, tried)) continue;
     MirrorLeftArm(&tried, random);
     *pose = tried;
-    return staging;
+    return interaction;
   }
-  return staging == Staging::kWheelchair ? staging : Staging::kNone;
+  return interaction == Interaction::kWheelchair ? interaction : Interaction::kNone;
 }
 
-std::vector<Prop> StagedProps(Staging staging, const recon::Posture& joints_in_world,
-                              const Eigen::Isometry3d& camera_from_world, Random& random) {
+std::vector<Prop> InteractionProps(Interaction interaction, const recon::Posture& joints_in_world,
+                                   const Eigen::Isometry3d& camera_from_world, Random& random) {
   std::vector<Prop> props;
-  if (staging == Staging::kHeldUp) AddHeldUp(joints_in_world, random, &props);
-  if (staging == Staging::kAtDesk) AddDesk(joints_in_world, random, &props);
-  if (staging == Staging::kArmrests) AddArmrests(joints_in_world, random, &props);
-  if (staging == Staging::kWheelchair) props = SampleWheelchair(joints_in_world, random);
-  if (staging == Staging::kCrutches) props = SampleCrutches(joints_in_world, random);
+  if (interaction == Interaction::kHeldUp) AddHeldUp(joints_in_world, random, &props);
+  if (interaction == Interaction::kAtDesk) AddDesk(joints_in_world, random, &props);
+  if (interaction == Interaction::kArmrests) AddArmrests(joints_in_world, random, &props);
+  if (interaction == Interaction::kWheelchair) props = SampleWheelchair(joints_in_world, random);
+  if (interaction == Interaction::kCrutches) props = SampleCrutches(joints_in_world, random);
   const Affine3f move(camera_from_world.cast<float>().matrix());
   for (Prop& prop : props) prop.mesh_in_cam = depth::Moved(std::move(prop.mesh_in_cam), move);
   return props;

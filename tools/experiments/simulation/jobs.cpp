@@ -1,4 +1,4 @@
-#include "tools/experiments/stage/jobs.h"
+#include "tools/experiments/simulation/jobs.h"
 
 #include <atomic>
 #include <ctime>

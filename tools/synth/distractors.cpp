@@ -1,4 +1,4 @@
-#include "tools/synth/nobodies.h"
+#include "tools/synth/distractors.h"
 
 #include <cmath>
 #include <numbers>
@@ -123,7 +123,7 @@ depth::TriangleMesh MakeNobody(Random& random) {
 
 }  // namespace
 
-std::vector<Prop> SampleNobodies(const Eigen::Isometry3d& camera_from_world, Random& random) {
+std::vector<Prop> SampleDistractors(const Eigen::Isometry3d& camera_from_world, Random& random) {
   constexpr float kNear_m = 0.9F, kFar_m = 2.5F;
   const Affine3f move(camera_from_world.cast<float>().matrix());
   std::vector<Prop> props;

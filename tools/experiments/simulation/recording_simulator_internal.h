@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "depth/base/random.h"
-#include "tools/experiments/stage/staged.h"
+#include "tools/experiments/simulation/recording_simulator.h"
 
 namespace ossa::tools {
 
@@ -29,7 +29,7 @@ void BeginWhenFound(RecordedPair& pair);
 class SimulatedSdk {
  public:
   explicit SimulatedSdk(uint64_t seed) : random_(seed, 4711) {}
-  recon::SkeletonFrame Observe(const StagedFrame& frame);
+  recon::SkeletonFrame Observe(const SequenceFrame& frame);
 
  private:
   struct JointMemory {
@@ -42,7 +42,7 @@ class SimulatedSdk {
   };
 
   Eigen::Vector3d Noise(double deviation_m);
-  Eigen::Vector3d Hidden(const StagedFrame& frame, const Eigen::Vector3d& true_m,
+  Eigen::Vector3d Hidden(const SequenceFrame& frame, const Eigen::Vector3d& true_m,
                          const Eigen::Vector3d& hips_m, JointMemory& memory);
 
   Random random_;

@@ -13,7 +13,7 @@
 
 namespace ossa::viewer {
 
-/// The skeletons of one moment, a layer of the page for each stage that made some.
+/// The skeletons of one frame, a layer of the page for each stage that made some.
 enum class Layer { kFinal, kRefined, kRaw };
 inline constexpr std::array<std::string_view, 3> kLayerNames = {"final", "refined", "raw"};
 
@@ -23,9 +23,9 @@ struct FittedBody {
   recon::SurfacePose pose;
 };
 
-/// One moment as the page shows it: pictures and skeletons that belong together.
-struct Moment {
-  depth::DepthFrame depth;      // without pixels: the moment of a skeleton file
+/// One frame as the page shows it: pictures and skeletons that belong together.
+struct DisplayFrame {
+  depth::DepthFrame depth;      // without pixels: the frame of a skeleton file
   depth::Image<uint8_t> users;  // body id of each pixel, 0 nobody; empty: not known
   depth::Image<uint8_t> parts;  // body part of each pixel, 0 none; empty: not known
   std::array<recon::SkeletonFrame, kLayerNames.size()> layers;  // by Layer; camera space, metres
@@ -40,9 +40,9 @@ struct Moment {
 };
 
 /// A frame with the result of the tracker.
-Moment MakeMoment(depth::DepthFrame frame, tracker::BodyFrame bodies);
+DisplayFrame MakeDisplayFrame(depth::DepthFrame frame, tracker::BodyFrame bodies);
 
 /// A frame of a skeleton file: no pictures.
-Moment MakeMoment(recon::SkeletonFrame skeletons);
+DisplayFrame MakeDisplayFrame(recon::SkeletonFrame skeletons);
 
 }  // namespace ossa::viewer

@@ -1,4 +1,4 @@
-#include "tools/experiments/stage/staged.h"
+#include "tools/experiments/simulation/recording_simulator.h"
 
 #include <gtest/gtest.h>
 
@@ -16,14 +16,14 @@
 #include "tests/support/temporary_folder.h"
 #include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/context_models.h"
-#include "tools/experiments/stage/motions.h"
-#include "tools/experiments/stage/staged_internal.h"
+#include "tools/experiments/simulation/motions.h"
+#include "tools/experiments/simulation/recording_simulator_internal.h"
 #include "tools/tracker/shipped.h"
 
 namespace ossa::tools {
 namespace {
 
-class Staged : public testing::Test {
+class RecordingSimulatorTest : public testing::Test {
  protected:
   void SetUp() override {
     if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
@@ -34,7 +34,7 @@ class Staged : public testing::Test {
     options_.width = 160;
     options_.height = 120;
   }
-  static int Hidden(const StagedFrame& frame) {
+  static int Hidden(const SequenceFrame& frame) {
     int hidden = 0;
     for (const auto& joint : frame.truth.bodies.at(0).joints) {
       hidden += joint->visible.value() ? 0 : 1;
@@ -45,12 +45,12 @@ class Staged : public testing::Test {
   test::TemporaryFolder folder_;
   ExperimentContext context_;
   recon::MotionClip clip_;
-  StageOptions options_;
+  SequenceOptions options_;
 };
 
-TEST_F(Staged, PersonFacesTheSensorWithTheLeftHandAtImageRight) {
-  Studio studio(context_, "simulated");
-  const auto frames = studio.RenderClip(clip_, options_);
+TEST_F(RecordingSimulatorTest, PersonFacesTheSensorWithTheLeftHandAtImageRight) {
+  RecordingSimulator simulator(context_, "simulated");
+  const auto frames = simulator.RenderClip(clip_, options_);
   ASSERT_EQ(frames.size(), 4u);
   const auto& joints = frames[0].truth.bodies.at(0).joints;
   const auto at = [&](recon::Joint joint) { return joints[joint]->position_m; };
@@ -66,20 +66,20 @@ TEST_F(Staged, PersonFacesTheSensorWithTheLeftHandAtImageRight) {
   EXPECT_LT(at(recon::Joint::kSpine).z() - surface_m, 0.3);
 }
 
-TEST_F(Staged, ViewFromTheRightSeesTheRightSideNearer) {
+TEST_F(RecordingSimulatorTest, ViewFromTheRightSeesTheRightSideNearer) {
   options_.azimuth_rad = -std::numbers::pi / 2;
-  Studio studio(context_, "simulated");
-  const auto frames = studio.RenderClip(clip_, options_);
+  RecordingSimulator simulator(context_, "simulated");
+  const auto frames = simulator.RenderClip(clip_, options_);
   const auto& joints = frames[0].truth.bodies.at(0).joints;
   const auto depth_of = [&](recon::Joint joint) { return joints[joint]->position_m.z(); };
   EXPECT_LT(depth_of(recon::Joint::kShoulderRight), depth_of(recon::Joint::kShoulderLeft));
 }
 
-TEST_F(Staged, ObjectsHideJointsAndLeaveTheTruthUnchanged) {
-  Studio studio(context_, "simulated");
-  const auto clean = studio.RenderClip(clip_, options_);
+TEST_F(RecordingSimulatorTest, ObjectsHideJointsAndLeaveTheTruthUnchanged) {
+  RecordingSimulator simulator(context_, "simulated");
+  const auto clean = simulator.RenderClip(clip_, options_);
   options_.clutter = Clutter::kCarSeat;
-  const auto seat = studio.RenderClip(clip_, options_);
+  const auto seat = simulator.RenderClip(clip_, options_);
   EXPECT_GT(Hidden(seat[0]), Hidden(clean[0]) + 3) << "knees, ankles, feet";
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     EXPECT_EQ(seat[0].truth.bodies[0].joints[j]->position_m,
@@ -87,9 +87,9 @@ TEST_F(Staged, ObjectsHideJointsAndLeaveTheTruthUnchanged) {
   }
 }
 
-TEST_F(Staged, CachedRecordingsEqualTheFirstOnes) {
-  const auto first = Studio(context_, "simulated").Record(clip_, options_);
-  const auto again = Studio(context_, "simulated").Record(clip_, options_);
+TEST_F(RecordingSimulatorTest, CachedRecordingsEqualTheFirstOnes) {
+  const auto first = RecordingSimulator(context_, "simulated").Record(clip_, options_);
+  const auto again = RecordingSimulator(context_, "simulated").Record(clip_, options_);
   ASSERT_EQ(first.observed.frames.size(), 4u);
   for (size_t f = 0; f < 4; ++f) {
     EXPECT_EQ(first.observed.frames[f].bodies[0].joints[11]->position_m,
@@ -101,7 +101,9 @@ TEST_F(Staged, CachedRecordingsEqualTheFirstOnes) {
   EXPECT_LT(*metrics.mean_joint_error_cm, 8.0);
 }
 
-TEST_F(Staged, UnknownObserverIsRefused) { EXPECT_THROW(Studio(context_, "magic"), InputError); }
+TEST_F(RecordingSimulatorTest, UnknownObserverIsRefused) {
+  EXPECT_THROW(RecordingSimulator(context_, "magic"), InputError);
+}
 
 std::vector<std::string> NamesOf(const ObserverFiles& files) {
   std::vector<std::string> names;
@@ -151,7 +153,7 @@ RecordedPair FoundFrom(size_t first, size_t frames) {
   return pair;
 }
 
-TEST(StagedRecording, BeginsWithTheFirstFrameInWhichThePersonIsFound) {
+TEST(RecordingSimulatorTest, BeginsWithTheFirstFrameInWhichThePersonIsFound) {
   RecordedPair pair = FoundFrom(2, 5);
   BeginWhenFound(pair);
   ASSERT_EQ(pair.observed.frames.size(), 3u);
@@ -160,14 +162,14 @@ TEST(StagedRecording, BeginsWithTheFirstFrameInWhichThePersonIsFound) {
   EXPECT_EQ(pair.truth.frames[0].frame, 2);
 }
 
-TEST(StagedRecording, IsEmptyWhereThePersonIsNeverFound) {
+TEST(RecordingSimulatorTest, IsEmptyWhereThePersonIsNeverFound) {
   RecordedPair pair = FoundFrom(5, 5);
   BeginWhenFound(pair);
   EXPECT_TRUE(pair.observed.frames.empty());
   EXPECT_TRUE(pair.truth.frames.empty());
 }
 
-TEST_F(Staged, StudyRunsFromATomlFileAndResumesToTheSameTables) {
+TEST_F(RecordingSimulatorTest, StudyRunsFromATomlFileAndResumesToTheSameTables) {
   const std::string out = (folder_ / "study").string();
   std::ofstream(folder_ / "s.toml")
       << "experiment = \"shum-2013\"\nout = \"" << out

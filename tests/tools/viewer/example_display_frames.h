@@ -18,19 +18,19 @@ inline ViewerOptions AnyPort(bool keeps = false) {
 }
 
 /// A frame with a content specific to its index: depth by ExampleFrame, skeletons by a joint.
-inline Moment ExampleMoment(int index) {
-  Moment moment;
-  moment.depth = test::ExampleFrame(index);
-  const size_t pixels = moment.depth.depth_mm.size();
-  moment.users = {32, 24, static_cast<uint8_t>(index % 6 + 1)};
-  moment.parts.data.assign(pixels, static_cast<uint8_t>(index % 31 + 1));
+inline DisplayFrame ExampleDisplayFrame(int index) {
+  DisplayFrame display;
+  display.depth = test::ExampleFrame(index);
+  const size_t pixels = display.depth.depth_mm.size();
+  display.users = {32, 24, static_cast<uint8_t>(index % 6 + 1)};
+  display.parts.data.assign(pixels, static_cast<uint8_t>(index % 31 + 1));
   recon::BodyRecord body;
   body.id = 1;
   body.joints[3].emplace().position_m = {0.001 * index, 0.5, 2.0};
-  moment.layers[0].frame = index;
-  moment.layers[0].time_s = index / 30.0;
-  moment.layers[0].bodies = {body};
-  return moment;
+  display.layers[0].frame = index;
+  display.layers[0].time_s = index / 30.0;
+  display.layers[0].bodies = {body};
+  return display;
 }
 
 }  // namespace ossa::viewer

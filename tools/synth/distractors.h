@@ -11,6 +11,6 @@ namespace ossa::tools {
 /// shaped like a part of one: shelves with things in them, coats on hooks, door frames, plants.
 /// Background, in camera space; two to five of them around the person's place at the origin, never
 /// on it.
-std::vector<Prop> SampleNobodies(const Eigen::Isometry3d& camera_from_world, Random& random);
+std::vector<Prop> SampleDistractors(const Eigen::Isometry3d& camera_from_world, Random& random);
 
 }  // namespace ossa::tools
