@@ -9,26 +9,26 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: sizes of hats and bags on a head and trunk of the average body, metres, by hand.
+// Constants: sizes of hats and bags on the average body, metres, chosen by hand.
 
 using Eigen::Affine3f;
 using Eigen::Vector3f;
 using recon::Joint;
 
-constexpr size_t kSpine1 = 13, kHead = 16;  // numbers of the rig's bones
+constexpr size_t kSpine1 = 13, kHead = 16;  // bone indices of the rig's format
 constexpr double kAverageHeight_m = 1.66;
 
 float Draw(Random& random, double low, double high) {
   return static_cast<float>(random.Uniform(low, high));
 }
 
-/// One half of a mesh, cut where x = 0; `side` 1: the left one.
+/// One half of a mesh, cut at x = 0; `side` 1: the left half.
 depth::TriangleMesh Half(depth::TriangleMesh mesh, float side) {
   for (Vector3f& p : mesh.vertices_m) p.x() = side * std::max(0.0F, side * p.x());
   return mesh;
 }
 
-/// In the head's axes, the head's middle at the origin.
+/// A hat in the head's axes, the head's centre at the origin.
 depth::TriangleMesh MakeHat(const Accessories& accessories) {
   const float round_m = accessories.hat == Accessories::Hat::kWoolly ? 0.012F : 0.006F;
   depth::TriangleMesh hat = depth::MakeBall(1.0F, 20);
@@ -41,7 +41,7 @@ depth::TriangleMesh MakeHat(const Accessories& accessories) {
   for (Vector3f& p : brim.vertices_m) {
     p = Vector3f(p.x() * (0.09F + accessories.brim_m), p.y() * 0.006F + 0.045F,
                  p.z() * (0.11F + accessories.brim_m));
-    if (accessories.hat == Accessories::Hat::kCap) {  // a peak: before the face only
+    if (accessories.hat == Accessories::Hat::kCap) {  // the peak is in front of the face only
       p.x() = std::clamp(p.x(), -0.075F, 0.075F);
       p.z() = std::max(0.0F, p.z());
     }
@@ -58,7 +58,7 @@ Affine3f FrameAt(const recon::RigPose& pose, size_t bone, const Vector3f& at_m, 
   return Eigen::Translation3f(at_m) * Affine3f(turn) * Eigen::Scaling(scale);
 }
 
-/// A strap from one place to another.
+/// A strap between two points.
 depth::TriangleMesh Strap(const Vector3f& from_m, const Vector3f& to_m) {
   constexpr float kHalfWidth_m = 0.018F;
   const Vector3f way = to_m - from_m;
@@ -67,7 +67,7 @@ depth::TriangleMesh Strap(const Vector3f& from_m, const Vector3f& to_m) {
                       Eigen::Translation3f((from_m + to_m) / 2) * turn * Affine3f::Identity());
 }
 
-/// In the chest's axes, the middle between spine and the base of the neck at the origin.
+/// A bag in the chest's axes, the origin midway between spine and base of the neck.
 depth::TriangleMesh MakeBag(const Accessories& accessories) {
   const Vector3f& size = accessories.bag_size_m;
   depth::TriangleMesh bag = depth::MakeBox(size);

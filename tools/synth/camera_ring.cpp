@@ -21,7 +21,7 @@ double LeastDistance_m(const Eigen::Vector3d& camera_m, std::span<const Eigen::V
 Eigen::Isometry3d StepBack(Eigen::Isometry3d world_from_camera,
                            std::span<const Eigen::Vector3d> places_m, double least_m) {
   constexpr double kStep_m = 0.1;  // by hand
-  constexpr int kMostSteps = 40;   // a bound: people stand within two metres of the origin
+  constexpr int kMostSteps = 40;   // a bound: people are within two metres of the origin
   Eigen::Vector3d outwards = world_from_camera.translation();
   outwards.y() = 0.0;
   if (!(outwards.norm() > 0.0)) return world_from_camera;
@@ -37,9 +37,9 @@ Eigen::Isometry3d StepBack(Eigen::Isometry3d world_from_camera,
 std::vector<Eigen::Isometry3d> PlaceCameras(const Eigen::Isometry3d& camera_from_world,
                                             std::span<const Eigen::Vector3d> places_m,
                                             double facing_rad, int cameras, uint64_t seed) {
-  constexpr double kLeastArc_deg = 60.0, kMostArc_deg = 120.0;  // by hand: bodies overlap in view
-  constexpr double kLeast_m = 1.5;     // by hand: more of a body is in view
-  constexpr uint64_t kArcStream = 78;  // by hand: nobody else draws of it
+  constexpr double kLeastArc_deg = 60.0, kMostArc_deg = 120.0;  // by hand: the views overlap
+  constexpr double kLeast_m = 1.5;     // by hand: nearer, less of a body is in view
+  constexpr uint64_t kArcStream = 78;  // by hand: unused by other draws
   const double side = facing_rad < 0.0 ? -1.0 : 1.0;
   const double arc_deg = Random(seed, kArcStream).Uniform(kLeastArc_deg, kMostArc_deg);
   const Eigen::Isometry3d world_from_camera_0 = camera_from_world.inverse();

@@ -12,24 +12,25 @@
 
 namespace ossa::tools {
 
-/// The body that tools/fetch_body fetched. Throws InputError when it was not.
+/// Reads the body model that tools/fetch_body downloads. Throws InputError if it is missing.
 recon::BodyModel LoadFetchedBody();
 
-/// Camera space has x to the sensor's left, y up, z forward.
+/// Camera from world of a camera at `eye` (metres, y up) whose optical axis passes through
+/// `target`. Camera space has x to the sensor's left, y up, z forward.
 Eigen::Isometry3d LookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
 
-/// One clothed body before a virtual sensor. Model and wardrobe must outlive it.
+/// A clothed body that can be posed and rendered. Model and wardrobe must outlive it.
 class ClothedBody {
  public:
   ClothedBody(const recon::BodyModel& model, const recon::Wardrobe& wardrobe,
               const recon::BodyShape& shape, const recon::Clothing& clothing);
 
-  /// Makes it one of the renderer's meshes.
+  /// Adds the body in its rest pose as a mesh of the renderer.
   void AddTo(depth::Renderer& renderer);
-  /// Skins into camera space, feet not below the floor at y = 0 of the world; returns the joints
-  /// there.
+  /// Skins the body into camera space, raised so that no vertex is below the floor (y = 0 of the
+  /// world). Returns the 20 joints in camera space, metres.
   recon::Posture Pose(const recon::RigPose& pose, const Eigen::Isometry3d& camera_from_world);
-  /// Gives the renderer the posture taken last.
+  /// Copies the posed vertices to the renderer's mesh.
   void UpdateMesh(depth::Renderer& renderer) const;
 
   int mesh() const { return mesh_; }
@@ -44,13 +45,13 @@ class ClothedBody {
   int mesh_ = -1;
 };
 
-/// Fills in parts and users of a frame of this camera: pixels that sense meshes[i], a body of the
-/// model, carry the user i + 1 and their part, all others 0.
+/// Fills `parts` and `users` of a frame. Pixels that show meshes[i], a body of the model, get the
+/// user i + 1 and their part; all others get 0.
 void LabelPeople(const depth::RenderedImage& seen, const depth::SensorImage& sensed,
                  const recon::BodyModel& model, std::span<const int> meshes, LabelledFrame* frame);
 
-/// What a structured-light sensor measures of the renderer's scene, labelled: pixels of body i
-/// carry the user i + 1 and their part. Bodies are left to the caller.
+/// Renders the scene as a structured-light sensor measures it, with labels: pixels of bodies[i] get
+/// the user i + 1 and their part. LabelledFrame::bodies stays empty.
 LabelledFrame RenderBodies(depth::Renderer& renderer, const depth::Camera& camera,
                            const recon::BodyModel& model, std::span<const ClothedBody> bodies,
                            uint64_t noise_seed);

@@ -9,7 +9,7 @@ namespace ossa::tools {
 namespace {
 
 recon::Rgb Grey(uint16_t depth_mm) {
-  constexpr int kNearest_mm = 500, kFarthest_mm = 5000;  // by eye: where people stand
+  constexpr int kNearest_mm = 500, kFarthest_mm = 5000;  // by eye: the usual range of people
   if (depth_mm == 0) return {};
   const int mm = std::clamp<int>(depth_mm, kNearest_mm, kFarthest_mm);
   const auto grey =

@@ -7,20 +7,20 @@
 
 namespace ossa::tools {
 
-/// Small pictures of one size in rows, on black.
+/// A grid of small images of equal size on a black background.
 class ContactSheet {
  public:
-  /// `count` tiles of so many pixels, `columns` in a row.
+  /// `count` tiles of tile_width x tile_height pixels, `columns` tiles in a row.
   ContactSheet(int count, int columns, int tile_width, int tile_height);
 
-  /// Depth as greys, the nearer the brighter, and over it each pixel whose label is not 0 in its
-  /// body part's colour. Images are made smaller (or larger) by their nearest pixels. An image may
-  /// be empty: it is left out; else both have one size.
+  /// Draws depth in greys (nearer is brighter), and over it each labelled pixel in the colour of
+  /// its body part. Images are resized to the tile by nearest neighbour. Depth and labels have
+  /// equal size; either may be empty and is then not drawn.
   void Draw(int tile, const depth::DepthFrame& depth, const depth::Image<uint8_t>& labels);
   std::vector<uint8_t> EncodePng() const;
 
  private:
-  int columns_, width_, height_, rows_;  // tiles in a row; of a tile, pixels; rows of tiles
+  int columns_, width_, height_, rows_;  // width_ and height_: of a tile, pixels
   std::vector<uint8_t> samples_;         // red, green, blue
 };
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 // Constants: by hand, for speed.
 
-constexpr size_t kCachedShards = 6;  // readers of several threads walk through neighbours
+constexpr size_t kCachedShards = 6;  // several threads read neighbouring shards
 
 fs::path ImagePath(const fs::path& folder, const char* kind, int64_t index) {
   char name[32];
@@ -50,7 +50,7 @@ depth::Image<uint8_t> ReadLabels(const fs::path& path, const depth::Camera& came
   return labels;
 }
 
-// Without users/ (a data set of other makers) every labelled pixel belongs to the one person.
+// Without users/ (allowed with one person a frame) every labelled pixel belongs to that person.
 depth::Image<uint8_t> UsersFromParts(const LabelledFrame& frame, const std::string& place) {
   if (frame.bodies.size() > 1) throw InputError(place + ": missing, with several people in it");
   auto users = frame.parts;

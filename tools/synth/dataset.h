@@ -19,46 +19,47 @@ namespace ossa::tools {
 struct TruthBody {
   int id = 1;               // the person's value in LabelledFrame::users
   recon::Posture joints_m;  // camera space, inside the body, all 20 known
-  /// True where surface of the joint's own body part, or near it, is seen by the sensor.
+  /// True where the sensor sees surface of the joint's own body part near the joint.
   recon::JointArray<bool> visible{};
 };
 
-/// A depth image with the label of each pixel. From packed shards it is cropped to the people with
-/// a border of background, and its camera is shifted accordingly: projections stay right.
+/// A depth image with a label for each pixel. Frames read from packed shards are cropped to the
+/// people and a border of background; their camera is shifted accordingly, so that projections stay
+/// correct.
 struct LabelledFrame {
   depth::DepthFrame depth;      // index = number of the frame in the data set
   depth::Image<uint8_t> parts;  // 0 background, 1..31 body part, 32 other (recon/body/parts.h)
-  depth::Image<uint8_t> users;  // 0 nobody, else TruthBody::id; an `other` pixel has its person's
+  depth::Image<uint8_t> users;  // 0 nobody, else TruthBody::id; an object has its person's id
   std::vector<TruthBody> bodies;
   std::optional<Eigen::Vector4d> floor;  // a b c d of ax + by + cz + d = 0, camera space
-  std::optional<depth::Camera> whole;    // of the uncropped image, where it is not the data set's
+  std::optional<depth::Camera> whole;  // of the uncropped image, if it differs from the data set's
 };
 
-/// What manifest.json says of a data set.
+/// The content of a data set's manifest.json.
 struct DatasetManifest {
   int64_t frames = 0;
   depth::Camera camera;  // of the uncropped images
   uint64_t seed = 0;
-  std::string command;               // made by
+  std::string command;               // that made the data set
   std::string split;                 // "train" or "test"
   std::string view;                  // "front", "any", "near" or "ceiling"
   std::vector<std::string> sources;  // motion
-  std::string motion;                // digest of the poses in them; "" of sets that do not say
-  std::string ossa;                  // version that made it; "" of sets that do not say
-  std::vector<std::string> terms;    // where motion and bodies come from and their licences
-  bool png = true;                   // depth/, parts/, users/ and truth.jsonl are there
-  bool packed = false;               // shards/ are there
+  std::string motion;                // digest of the poses in the sources; "" if not recorded
+  std::string ossa;                  // version that made it; "" if not recorded
+  std::vector<std::string> terms;    // origin and licences of motion and bodies
+  bool png = true;                   // has depth/, parts/, users/ and truth.jsonl
+  bool packed = false;               // has shards/
   int64_t frames_per_shard = 0;
 };
 
-/// True when the folder has the manifest of a finished data set.
+/// True if the folder has the manifest of a finished data set.
 bool IsDataset(const std::filesystem::path& folder);
-/// True of one that `ossa render` has begun: DatasetReader says so, whoever else reads it does not.
+/// True if `ossa render` has begun a data set in the folder and not finished it.
 bool IsUnfinishedDataset(const std::filesystem::path& folder);
 
-/// Reads a DATASET (docs/architecture.md, "Data set"), from its shards when it has them, else from
-/// its PNG files. Every damage throws an InputError that names the file. Read may be called from
-/// many threads; frames of one shard asked one after another are fast.
+/// Reads a data set (docs/architecture.md, "Data set") from its shards if it has them, else from
+/// its PNG files. Damaged files throw an InputError that names the file. Read() is thread-safe;
+/// consecutive frames of one shard are fast.
 class DatasetReader {
  public:
   explicit DatasetReader(const std::filesystem::path& folder);
@@ -77,9 +78,9 @@ class DatasetReader {
   std::unique_ptr<State> state_;
 };
 
-/// The frame in an image of its own whole size, else of its data set's, with nothing where the crop
-/// was cut off: where an image ends says much about what is not seen. (Of `--camera generic` the
-/// optical centre is taken for the data set's: a few pixels off.)
+/// The frame at the size of its uncropped image (`frame.whole`, else `of_data_set`), without depth
+/// outside of the crop. Needed where the image's border matters, e.g. to know which joints are
+/// outside of it. With `--camera generic` the data set's optical centre is used: a few pixels off.
 LabelledFrame Uncropped(const LabelledFrame& frame, const depth::Camera& of_data_set);
 
 }  // namespace ossa::tools

@@ -22,7 +22,7 @@ void AppendBox(depth::TriangleMesh& mesh, const Vector3f& size_m, const Vector3f
   depth::Append(mesh, depth::Moved(depth::MakeBox(size_m), Affine3f(Eigen::Translation3f(at_m))));
 }
 
-/// Sides, boards, and books and boxes on them; stands on y = 0, open to +z.
+/// A shelf with books and boxes; stands on y = 0, open to +z.
 depth::TriangleMesh MakeShelf(Random& random) {
   const float wide_m = Draw(random, 0.5, 1.2), deep_m = Draw(random, 0.22, 0.4);
   const float step_m = Draw(random, 0.28, 0.45);
@@ -45,7 +45,7 @@ depth::TriangleMesh MakeShelf(Random& random) {
   return shelf;
 }
 
-/// A coat on a hook or a stand: shoulders, a body that falls in folds, sleeves.
+/// A coat on a hook or a stand: shoulders, a folded body, sleeves.
 depth::TriangleMesh MakeHungCoat(Random& random) {
   const float top_m = Draw(random, 1.4, 1.9), long_m = Draw(random, 0.6, 1.2);
   const float wide_m = Draw(random, 0.14, 0.24), deep_m = Draw(random, 0.06, 0.14);
@@ -68,7 +68,7 @@ depth::TriangleMesh MakeHungCoat(Random& random) {
   return coat;
 }
 
-/// Two posts and a lintel, with a door that stands open in half of them.
+/// A door frame; half of them have an open door.
 depth::TriangleMesh MakeDoorFrame(Random& random) {
   const float wide_m = Draw(random, 0.75, 1.0), high_m = Draw(random, 1.95, 2.1);
   const float post_m = Draw(random, 0.06, 0.15);
@@ -88,7 +88,7 @@ depth::TriangleMesh MakeDoorFrame(Random& random) {
   return frame;
 }
 
-/// A pot, stems and leaves, of a head's height to a person's.
+/// A plant in a pot, as tall as a head to as tall as a person.
 depth::TriangleMesh MakePlant(Random& random) {
   const float high_m = Draw(random, 0.5, 1.9), round_m = Draw(random, 0.15, 0.45);
   depth::TriangleMesh plant;
@@ -129,7 +129,7 @@ std::vector<Prop> SampleDistractors(const Eigen::Isometry3d& camera_from_world, 
   std::vector<Prop> props;
   const size_t count = 2 + random.Index(4);
   for (size_t i = 0; i < count; ++i) {
-    // From one side over the back to the other, not between the person and the camera.
+    // Beside and behind the person, not between the person and the camera.
     const float about = Draw(random, 0.4, 1.6) * std::numbers::pi_v<float>;
     const float away_m = Draw(random, kNear_m, kFar_m), turn = Draw(random, -0.5, 0.5);
     const Vector3f at_m(away_m * std::sin(about), 0, away_m * std::cos(about));

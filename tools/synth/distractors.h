@@ -7,10 +7,9 @@
 
 namespace ossa::tools {
 
-/// What stands about in homes and offices and is nobody, though it is as large as a person or
-/// shaped like a part of one: shelves with things in them, coats on hooks, door frames, plants.
-/// Background, in camera space; two to five of them around the person's place at the origin, never
-/// on it.
+/// Objects of homes and offices that a detector may take for a person, as large as one or shaped
+/// like a part of one: filled shelves, coats on hooks, door frames, plants. Two to five of them,
+/// labelled as background, in camera space, around the person at the world's origin but not on it.
 std::vector<Prop> SampleDistractors(const Eigen::Isometry3d& camera_from_world, Random& random);
 
 }  // namespace ossa::tools

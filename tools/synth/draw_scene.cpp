@@ -6,7 +6,7 @@
 namespace ossa::tools {
 namespace {
 
-// The first person stands over the origin; the others around, not inside of each other.
+// The first person is at the origin, the others around it without overlap.
 std::vector<Eigen::Vector3d> SamplePlaces(int people, Random& random) {
   constexpr double kApart_m = 0.55;  // by hand
   std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};

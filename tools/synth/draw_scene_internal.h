@@ -8,14 +8,14 @@
 
 namespace ossa::tools {
 
-/// Who stands where before which cameras. World: y up, floor at y = 0, metres.
+/// Places of people and cameras. World: metres, y up, floor at y = 0.
 struct PeopleScene {
   ViewSample view;                                    // of camera 0
   std::vector<Eigen::Vector3d> places_m;              // of the people, the first at the origin
   std::vector<Eigen::Isometry3d> cameras_from_world;  // camera 0 first
 };
 
-/// `person_m`: height of the first person.
+/// `person_m`: height of the first person, metres.
 PeopleScene DrawScene(const FrameOptions& options, double person_m, Random& random);
 
 }  // namespace ossa::tools

@@ -18,14 +18,14 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
-constexpr int64_t kFramesPerBody = 8;  // shaping and dressing cost as much as the rest of a frame
-constexpr int kMostTries = 24;         // to find a view with enough of the person in it
-constexpr double kRoomShare = 0.8;  // of frames: edges against a wall, else against nothing; share
-constexpr double kTrustedGap_m = 0.25;  // feet farther off the floor than this are a jump
+constexpr int64_t kFramesPerBody = 8;  // for speed: a new body costs as much as the rest of a frame
+constexpr int kMostTries = 24;         // draws of a view, until enough of the person is visible
+constexpr double kRoomShare = 0.8;     // share of frames with a wall behind the person's outline
+constexpr double kTrustedGap_m = 0.25;  // feet farther above the floor: a jump
 
-// Streams of random numbers: what is drawn for one purpose must not shift what follows.
+// Streams of random numbers: draws of one kind must not shift those of another.
 enum Stream : uint64_t {
   kBodyStream = 1,
   kSceneStream = 2,
@@ -35,7 +35,7 @@ enum Stream : uint64_t {
 };
 
 Random SeedStream(uint64_t seed, Stream purpose, int64_t index, int extra) {
-  // The bits that make room for the purpose count, too: without them two seeds are one.
+  // The high bits that the shift loses must count, else two seeds would be equal.
   const uint64_t pushed_out = seed >> 61U;
   const uint64_t purposeful = pushed_out == 0 ? seed * 8 + purpose : MixSeed(seed, purpose);
   return Random(purposeful, static_cast<uint64_t>(index) * 64 + static_cast<uint64_t>(extra));
@@ -55,17 +55,17 @@ struct FrameMaker::State {
   const FrameInputs& inputs;
   const FrameOptions& options;
   depth::Renderer renderer;
-  std::vector<ClothedPerson> clothed_people;  // one a person
+  std::vector<ClothedPerson> clothed_people;  // one per person
   std::vector<std::vector<Eigen::Vector3f>> posed_m;
   std::vector<int> mesh_of_person;
-  std::vector<recon::Posture> path_in_world;  // of a sequence: the first person's, all frames
+  std::vector<recon::Posture> path_in_world;  // for a sequence: the first person in all frames
 
   explicit State(const FrameInputs& shared) : inputs(shared), options(shared.options) {
     const auto people = static_cast<size_t>(options.people);
     clothed_people.resize(people);
     posed_m.assign(people, std::vector<Eigen::Vector3f>(inputs.model.vertex_count()));
     for (size_t person = 0; person < people; ++person) {
-      // The tree of the renderer is built of the rest pose and only refitted afterwards.
+      // The renderer builds its tree from the rest pose and only refits it afterwards.
       Dress(0, static_cast<int>(person));
       mesh_of_person.push_back(
           renderer.AddMesh({clothed_people[person].rest_m, inputs.model.triangles()}, true));
@@ -83,12 +83,12 @@ struct FrameMaker::State {
   std::vector<Prop> DrawInteractionProps(Interaction interaction,
                                          const recon::Posture& joints_in_cam,
                                          const ViewSample& view, Random& random) const;
-  // People in their poses before the camera.
+  // People posed in camera space.
   struct PosedPeople {
-    Interaction interaction = Interaction::kNone;  // of the first of them
+    Interaction interaction = Interaction::kNone;  // of the first person
     std::vector<TruthBody> bodies{};
-    std::vector<Prop> things{};  // that they wear, in camera space
-    PixelBox box{};              // around them
+    std::vector<Prop> things{};  // their accessories, in camera space
+    PixelBox box{};              // around them, pixels
   };
   PosedPeople PosePeople(int64_t index, const PeopleScene& scene, const ViewSample& view,
                          Random& random, Random& thing);
@@ -120,7 +120,7 @@ void FrameMaker::State::Dress(int64_t index, int person) {
   clothed.key = key;
 }
 
-// Skins the person into camera space, feet on the floor; returns its joints there.
+// Skins the person into camera space, feet on the floor; returns the joints in camera space.
 recon::Posture FrameMaker::State::Pose(const recon::RigPose& pose, size_t person,
                                        const Eigen::Isometry3d& camera_from_world) {
   const ClothedPerson& clothed = clothed_people[person];
@@ -145,7 +145,7 @@ recon::Posture FrameMaker::State::Pose(const recon::RigPose& pose, size_t person
 recon::RigPose FrameMaker::State::DrawPose(int64_t index, Random& random) const {
   const auto& poses = inputs.poses;
   if (options.sequence) {
-    // A clip shorter than the sequence is played to and fro.
+    // A clip shorter than the sequence is played forwards and backwards.
     const auto period = std::max<int64_t>(1, 2 * static_cast<int64_t>(poses.size()) - 2);
     const int64_t at = index % period;
     return poses[static_cast<size_t>(std::min(at, period - at))];
@@ -153,8 +153,8 @@ recon::RigPose FrameMaker::State::DrawPose(int64_t index, Random& random) const 
   return Varied(poses[random.Index(poses.size())], options.variation, random);
 }
 
-// What stands about and what is held. In a sequence the first frame decides: the room and what
-// stands in it stay where they are, and what is held goes along with the hands.
+// Occluders, held objects and the room. In a sequence the first frame determines them: room and
+// standing objects stay in place, held objects move with the hands.
 std::vector<Prop> FrameMaker::State::DrawProps(const recon::Posture& joints_in_cam,
                                                const PeopleScene& scene, Random& random) {
   const ViewSample& view = scene.view;
@@ -189,7 +189,7 @@ std::vector<Prop> FrameMaker::State::DrawProps(const recon::Posture& joints_in_c
   return props;
 }
 
-// DrawProps as the camera of the view sees them: what there is, camera 0 decides.
+// DrawProps() in the space of the view's camera; camera 0 determines which props exist.
 std::vector<Prop> FrameMaker::State::DrawPropsFor(const ViewSample& view,
                                                   const recon::Posture& joints_in_cam,
                                                   const PeopleScene& scene, Random& random) {
@@ -203,7 +203,7 @@ std::vector<Prop> FrameMaker::State::DrawPropsFor(const ViewSample& view,
   return props;
 }
 
-// What the person holds up, leans on or what hangs on the wall behind, besides DrawProps.
+// Objects of the interaction, and distractors, besides DrawProps().
 std::vector<Prop> FrameMaker::State::DrawInteractionProps(Interaction interaction,
                                                           const recon::Posture& joints_in_cam,
                                                           const ViewSample& view,
@@ -260,7 +260,7 @@ LabelledFrame FrameMaker::State::RenderFrame(const ViewSample& view, const std::
   return frame;
 }
 
-// Everybody posed in camera space, and what they wear.
+// Poses all people in camera space, with their accessories.
 FrameMaker::State::PosedPeople FrameMaker::State::PosePeople(int64_t index,
                                                              const PeopleScene& scene,
                                                              const ViewSample& view, Random& random,
@@ -291,7 +291,7 @@ FrameMaker::State::PosedPeople FrameMaker::State::PosePeople(int64_t index,
 }
 
 std::optional<LabelledFrame> FrameMaker::State::TryMake(int64_t index, int attempt) {
-  const int64_t drawn_for = options.sequence ? 0 : index;  // a sequence is one draw
+  const int64_t drawn_for = options.sequence ? 0 : index;  // a sequence draws its scene once
   Random random = SeedStream(options.seed, kSceneStream, drawn_for, attempt);
   for (int person = 0; person < options.people; ++person) Dress(index, person);
   const PeopleScene scene = DrawScene(options, clothed_people[0].body.height_m, random);
@@ -299,7 +299,7 @@ std::optional<LabelledFrame> FrameMaker::State::TryMake(int64_t index, int attem
   view.camera_from_world = scene.cameras_from_world[static_cast<size_t>(options.camera)];
   Random thing = SeedStream(options.seed, kThingStream, drawn_for, attempt);
   PosedPeople posed = PosePeople(index, scene, view, random, thing);
-  // Nobody in view: another view is tried, but a sequence keeps its own.
+  // Nobody in view: another view is drawn, but a sequence keeps its view.
   const bool unseen = posed.box.u1 - posed.box.u0 < 2 || posed.box.v1 - posed.box.v0 < 2;
   const bool room = options.background != Background::kNone;
   if (unseen && !options.sequence && !room) return std::nullopt;

@@ -14,7 +14,7 @@
 
 namespace ossa::tools {
 
-// Constants: the sensor's own image is a Kinect v1's; people and seed by convention.
+// Constants: image size of a Kinect v1; people and seed by convention.
 
 enum class Background { kNone, kRoom, kLivedIn };
 
@@ -24,29 +24,29 @@ struct FrameOptions {
   View view = View::kFront;
   Split split = Split::kTrain;
   Occluders occluders = Occluders::kNone;
-  /// One of them in each frame, drawn where there are several.
+  /// Each frame draws one of them.
   std::vector<depth::SensorKind> sensors = {depth::SensorKind::kKinectV1};
-  /// kNone: pixels of nobody read 0, as after a perfect segmentation. kLivedIn: a room with
-  /// shelves, coats on hooks, door frames and plants.
+  /// kNone: only people and the objects labelled with them have depth, as after a perfect
+  /// segmentation. kLivedIn: a room with shelves, coats on hooks, door frames and plants.
   Background background = Background::kNone;
-  bool random_bodies = true;     // else everybody is the average body, lightly clothed
-  bool ends = false;             // random bodies also from the ends of the range
-  bool hanging_clothes = false;  // what hangs and folds, hats and bags, too
+  bool random_bodies = true;     // else all people have the average body and light clothes
+  bool ends = false;             // one random body in three has an extreme shape
+  bool hanging_clothes = false;  // also loose clothes, hats, bags and gloves
   Cameras cameras = Cameras::kKinectV1;
   double fov_deg = 0.0;   // horizontal field of view; 0: the Kinect's
-  double shrink = 1.0;    // factor by definition: so much larger, then shrunk by nearest pixel
-  bool sequence = false;  // the poses are consecutive frames of one clip before one camera
+  double shrink = 1.0;    // factor by definition: rendered larger, then shrunk by nearest neighbour
+  bool sequence = false;  // the poses are consecutive frames of one clip, seen by one camera
   int people = 1;
-  int views = 1;   // cameras around the people of a sequence, of which
-  int camera = 0;  // ... this one takes the images; counts from 0
+  int views = 1;   // cameras around the people of a sequence
+  int camera = 0;  // index of the camera that is rendered, from 0
   uint64_t seed = 1;
   PoseVariation variation;
 };
 
-/// The camera of the options' images where none is drawn for each frame, shrunk if they are.
+/// The images' camera, after shrinking, unless each frame draws its own.
 depth::Camera MakeCamera(const FrameOptions& options);
 
-/// What all threads share while rendering.
+/// Inputs of rendering that all threads share: body model, clothes, poses, options.
 struct FrameInputs {
   recon::BodyModel model;
   recon::Wardrobe wardrobe;
@@ -59,15 +59,16 @@ struct FrameInputs {
   FrameInputs& operator=(const FrameInputs&) = delete;
 };
 
-/// Makes labelled frames; one maker a thread. Frame i depends on the inputs and i only.
+/// Renders labelled frames; one maker per thread. Frame i depends only on the inputs and i.
 class FrameMaker {
  public:
   explicit FrameMaker(const FrameInputs& inputs);
   ~FrameMaker();
 
+  /// Throws std::runtime_error if no drawn view shows a person.
   LabelledFrame Make(int64_t index);
 
-  /// Of a sequence: takes a point of camera 0's space to the space of the camera of each index.
+  /// For a sequence, entry k transforms points from camera 0's space to camera k's.
   std::vector<Eigen::Isometry3d> FromCamera0();
 
  private:

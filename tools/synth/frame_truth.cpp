@@ -7,10 +7,10 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
-// Of the data set's width, or where each frame has its own camera as wide as that would be at a
-// Kinect's field of view.
+// Width in pixels of an uncropped image with a Kinect's field of view and this frame's focal
+// length.
 double WidthOf(const LabelledFrame& frame, const FrameOptions& options) {
   constexpr double kWidthOverFocal = 640.0 / 575.0;  // of a Kinect v1; factor; derived
   if (options.cameras != Cameras::kAny && options.fov_deg == 0.0) return options.width;

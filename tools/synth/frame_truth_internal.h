@@ -18,12 +18,12 @@ void LabelProps(const depth::RenderedImage& seen, std::span<const Prop> props,
                 std::span<const int> prop_mesh, Background background, depth::SensorImage* sensed,
                 LabelledFrame* frame);
 
-/// Adds what is true of a frame beside its labels: skeletons, which of their joints are seen, floor
-/// and time.
+/// Adds the rest of the ground truth: skeletons with the visibility of their joints, floor and
+/// time.
 void AddTruth(std::vector<TruthBody> bodies, const ViewSample& view, int64_t index,
               LabelledFrame* frame);
 
-/// Whether enough of the first person is seen for the frame to be worth anything.
+/// True if enough of the first person is visible for the frame to be used.
 bool ShowsEnough(const LabelledFrame& frame, const FrameOptions& options);
 
 }  // namespace ossa::tools

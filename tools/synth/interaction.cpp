@@ -12,7 +12,7 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: sizes of things and reaches of arms, chosen by hand; numbers of bones are the rig's.
+// Constants: sizes of objects and reaches of arms, metres, chosen by hand; bone indices of the rig.
 
 using Eigen::Affine3f;
 using Eigen::Matrix3f;
@@ -27,7 +27,7 @@ float Draw(Random& random, double low, double high) {
   return static_cast<float>(random.Uniform(low, high));
 }
 
-/// The right arm as the left one in a mirror between them, nearly.
+/// Makes the right arm nearly a mirror image of the left one.
 void MirrorLeftArm(recon::RigPose* pose, Random& random) {
   const Eigen::Quaterniond trunk = pose->world_from_rest[kSpine1];
   const double x = random.Normal(0, 0.05), y = random.Normal(0, 0.05), z = random.Normal(0, 0.05);
@@ -39,7 +39,7 @@ void MirrorLeftArm(recon::RigPose* pose, Random& random) {
   }
 }
 
-/// A joint of the standard body, from the base of the neck, in the chest's axes.
+/// Position of a joint of the standard body, relative to the base of the neck, in the chest's axes.
 Vector3d InChest(const recon::RigPose& pose, const recon::Posture& posture, Joint joint) {
   return pose.world_from_rest[kSpine1].conjugate() *
          (posture[joint] - posture[Joint::kShoulderCenter]);
@@ -59,7 +59,7 @@ bool IsForearmLevel(const recon::RigPose& pose) {
          hand.x() < 0.5;
 }
 
-/// The line between the hands in the world, to the person's left and level; up; to the front.
+/// Axes in the world: from hand to hand, horizontal, to the person's left; up; to the front.
 struct Before {
   Vector3f left, up, front;
 };
@@ -79,7 +79,7 @@ Affine3f Frame(const Vector3f& x, const Vector3f& y, const Vector3f& z, const Ve
   return frame;
 }
 
-/// A sheet in the plane z = 0, from y = 0 downwards, x from -1/2 to 1/2 of the width its row has.
+/// A sheet in the plane z = 0, from y = 0 downwards; each row has its own width, centred at x = 0.
 depth::TriangleMesh Sheet(float width_m, float height_m, const std::vector<float>& row_width) {
   constexpr uint32_t kColumns = 24;
   depth::TriangleMesh mesh;
@@ -101,7 +101,7 @@ depth::TriangleMesh Sheet(float width_m, float height_m, const std::vector<float
   return mesh;
 }
 
-/// Cloth falls in folds that grow on the way down, and sags between the hands.
+/// Adds folds that grow downwards, and sagging between the hands.
 void Fold(depth::TriangleMesh* mesh, float width_m, float height_m, Random& random) {
   const float folds = Draw(random, 1.0, 5.0), phase = Draw(random, 0.0, 6.3);
   const float deep_m = Draw(random, 0.005, 0.06), sag_m = Draw(random, 0.0, 0.12) * width_m;
@@ -114,8 +114,8 @@ void Fold(depth::TriangleMesh* mesh, float width_m, float height_m, Random& rand
   }
 }
 
-/// Something to hold up by its upper corners or its sides; x to the left, y up, its middle above
-/// the hands' or between them.
+/// An object held up by its upper corners or its sides; x to the left, y up, its centre above or
+/// between the hands.
 depth::TriangleMesh SampleHeldUpObject(float span_m, Random& random) {
   constexpr size_t kRows = 20;
   const size_t kind = random.Index(5);
@@ -155,7 +155,7 @@ void AddHeldUp(const recon::Posture& joints, Random& random, std::vector<Prop>* 
   const Vector3f across = left_m - right_m;
   const float span_m = across.norm();
   const Vector3f x = span_m > 0.05F ? Vector3f(across / span_m) : before.left;
-  // Upright, or leaning as a reader's paper does.
+  // Upright, or tilted like paper that is read.
   const float lean = Draw(random, -0.35, 0.35);
   const Vector3f wish = (before.up - lean * before.front).normalized();
   const Vector3f y = (wish - wish.dot(x) * x).normalized();
@@ -165,7 +165,7 @@ void AddHeldUp(const recon::Posture& joints, Random& random, std::vector<Prop>* 
                     true, Grip::kBothHands});
 }
 
-/// What lies about on a desk: the first is a screen or a laptop's, the others small.
+/// Objects on a desk: first a screen or a laptop, then small ones.
 depth::TriangleMesh SampleDeskObject(size_t number, Random& random) {
   if (number == 0 && random.Chance(0.6)) {
     const float wide_m = Draw(random, 0.28, 0.6), high_m = wide_m * Draw(random, 0.55, 0.7);
@@ -179,9 +179,9 @@ depth::TriangleMesh SampleDeskObject(size_t number, Random& random) {
                       Affine3f(Eigen::Translation3f(0, high_m / 2, 0)));
 }
 
-/// Height of what both forearms lie on.
+/// Height of the surface under both forearms, metres.
 float LevelUnderForearms_m(const recon::Posture& joints) {
-  constexpr double kForearm_m = 0.045;  // from the wrist's middle to the skin below, and cloth
+  constexpr double kForearm_m = 0.045;  // from the wrist's centre to the skin and cloth below
   double low_m = 1e9;
   for (const Joint joint : {Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft,
                             Joint::kElbowRight, Joint::kWristRight, Joint::kHandRight}) {
@@ -217,7 +217,7 @@ void AddDesk(const recon::Posture& joints, Random& random, std::vector<Prop>* pr
   }
 }
 
-/// A chair's arms, its back, and the posts that hold them.
+/// Armrests and back of a chair, and their posts.
 void AddArmrests(const recon::Posture& joints, Random& random, std::vector<Prop>* props) {
   const Before before = ComputeFrontAxes(joints);
   const Vector3f hips_m = joints[Joint::kHipCenter].cast<float>();
@@ -265,12 +265,13 @@ Interaction DrawInteraction(Occluders kind, Random& random) {
 
 Interaction ArrangeArms(Interaction interaction, recon::RigPose* pose, Random& random) {
   constexpr double kUpright = 0.85;  // cosine of the chest's lean
-  constexpr int kMostTries = 200;    // of an arm; most take a tenth of it
+  constexpr int kMostTries = 200;    // draws of an arm; most need a tenth of them
   if (interaction == Interaction::kNone) return interaction;
   const Vector3d up = pose->world_from_rest[kSpine1] * Vector3d::UnitY();
   if (up.y() < kUpright) return Interaction::kNone;
   if (interaction == Interaction::kWheelchair) {
-    constexpr double kArmsRest = 0.5;  // share of who sits in one; of others arms stay; by hand
+    constexpr double kArmsRest =
+        0.5;  // share of wheelchair users with the arms on the armrests; by hand
     SitDown(pose, random);
     if (!random.Chance(kArmsRest)) return interaction;
   }

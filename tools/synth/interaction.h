@@ -9,24 +9,26 @@
 
 namespace ossa::tools {
 
-/// What the first person of a still does with things: the arms go to them, and they to the hands.
+/// Interaction of the first person of a single frame with objects: arms and objects are moved to
+/// each other.
 enum class Interaction {
   kNone,
-  kHeldUp,      // holds a sheet of cloth, a garment, a board, paper or a box up before the body
-  kAtDesk,      // forearms lie on a desk, with things on it
-  kArmrests,    // ... or on a chair's arms
-  kWheelchair,  // sits in one
-  kCrutches,    // walks on one or two
+  kHeldUp,      // holds cloth, a garment, a board, paper or a box up in front of the body
+  kAtDesk,      // forearms on a desk with objects on it
+  kArmrests,    // forearms on the armrests of a chair
+  kWheelchair,  // sits in a wheelchair
+  kCrutches,    // walks on one or two crutches
 };
 
-/// What `ossa render --occluders` asks for in this frame, by chance where it leaves a choice.
+/// The interaction that `ossa render --occluders` requests, random if it allows several.
 Interaction DrawInteraction(Occluders kind, Random& random);
 
-/// Brings the arms to where the interaction has them. A trunk that lies or leans far cannot: then
-/// the pose stays and kNone is returned.
+/// Moves the arms (and for a wheelchair the legs) as the interaction needs. If the trunk lies or
+/// leans too far, the pose stays unchanged and kNone is returned.
 Interaction ArrangeArms(Interaction interaction, recon::RigPose* pose, Random& random);
 
-/// The things, in camera space, of a person whose arms are arranged. World: y up, floor at y = 0.
+/// The objects of the interaction, in camera space, after ArrangeArms(). World: metres, y up, floor
+/// at y = 0.
 std::vector<Prop> InteractionProps(Interaction interaction, const recon::Posture& joints_in_world,
                                    const Eigen::Isometry3d& camera_from_world, Random& random);
 

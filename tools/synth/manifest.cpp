@@ -127,7 +127,8 @@ DatasetManifest ReadManifest(const std::filesystem::path& folder) {
                      "makes it to be given again, it goes on from where it was");
   }
   if (!file) throw InputError(path.string() + ": cannot be read: expected a data set's manifest");
-  constexpr size_t kMostBytes = size_t{16} << 20;  // of a few kilobytes; a bound by hand
+  constexpr size_t kMostBytes = size_t{16}
+                                << 20;  // a manifest has a few kilobytes; a bound by hand
   std::string text(kMostBytes, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<size_t>(file.gcount()));

@@ -6,20 +6,20 @@
 
 namespace ossa::tools {
 
-/// manifest.json as text: the same manifest gives the same bytes.
+/// Text of manifest.json; equal manifests give equal bytes.
 std::string ManifestToJson(const DatasetManifest& manifest);
 DatasetManifest ReadManifest(const std::filesystem::path& folder);
 
-/// What is kept in a data set's folder until it is finished, and in it what it is to be.
+/// Sub-folder of an unfinished data set, and the file in it with the manifest to be.
 constexpr const char* kWorkFolder = ".work";
 constexpr const char* kPlanFile = "plan.json";
-/// The command in such a text, for messages; of any other text that it has none.
+/// The command in a manifest's text, for messages; a remark if the text has none.
 std::string CommandIn(const std::string& manifest_text);
 
-/// One line of truth.jsonl (docs/architecture.md, "Data set") without the newline, and back;
-/// `place` is for messages.
+/// One line of truth.jsonl (docs/architecture.md, "Data set") without the newline.
 std::string TruthLine(const LabelledFrame& frame);
-/// Fills index, time, floor and bodies of a frame.
+/// Reads such a line: fills index, time, floor and bodies of a frame. Throws InputError that begins
+/// with `place`.
 void ParseTruthLine(const std::string& line, const std::string& place, LabelledFrame* frame);
 
 }  // namespace ossa::tools

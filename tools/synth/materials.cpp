@@ -8,11 +8,11 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: shares of infrared light sent back, chosen by hand.
+// Constants: reflectances in infrared light, fractions, chosen by hand.
 
-constexpr uint64_t kThings = 1000;  // streams of things come after those of people
+constexpr uint64_t kObjects = 1000;  // first random stream of objects, after those of people
 
-/// What of a person is of one material.
+/// Materials of a person.
 enum Garment : size_t { kHair, kSkin, kShirt, kTrousers, kShoes, kGarmentCount };
 using Materials = std::array<float, kGarmentCount>;
 
@@ -50,7 +50,7 @@ depth::Image<float> DrawReflectance(const depth::RenderedImage& seen, const reco
     people.push_back(DrawMaterials(random));
   }
   depth::Image<float> reflectance(seen.mesh.width, seen.mesh.height);
-  std::vector<float> things;  // by mesh number
+  std::vector<float> objects;  // by mesh number
   for (size_t i = 0; i < seen.mesh.data.size(); ++i) {
     const int mesh = seen.mesh.data[i];
     if (mesh < 0) continue;
@@ -60,11 +60,11 @@ depth::Image<float> DrawReflectance(const depth::RenderedImage& seen, const reco
       reflectance.data[i] = people[static_cast<size_t>(person - meshes.begin())][GarmentOf(part)];
       continue;
     }
-    while (things.size() <= static_cast<size_t>(mesh)) {
-      Random random(seed, kThings + things.size());
-      things.push_back(Cloth(random));
+    while (objects.size() <= static_cast<size_t>(mesh)) {
+      Random random(seed, kObjects + objects.size());
+      objects.push_back(Cloth(random));
     }
-    reflectance.data[i] = things[static_cast<size_t>(mesh)];
+    reflectance.data[i] = objects[static_cast<size_t>(mesh)];
   }
   return reflectance;
 }

@@ -7,9 +7,9 @@
 
 namespace ossa::tools {
 
-/// How much infrared light the surfaces of a rendered image send back, [0, 1]: hair little, skin
-/// much, cloth and things anything, some of it next to nothing. `meshes[i]` is person i's. The same
-/// seed gives the same people the same clothes.
+/// Infrared reflectance of each pixel of a rendered image, in [0, 1], height x width: low for hair,
+/// high for skin, anything for cloth and objects. `meshes[i]` is person i's mesh. Equal seeds give
+/// equal materials.
 depth::Image<float> DrawReflectance(const depth::RenderedImage& seen, const recon::BodyModel& model,
                                     std::span<const int> meshes, uint64_t seed);
 

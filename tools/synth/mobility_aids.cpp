@@ -40,7 +40,7 @@ struct Axes {
     left = (across - across.dot(up) * up).normalized();
     front = left.cross(up);
   }
-  /// A mesh that was made with x to the left and z to the front.
+  /// Moves a mesh that was made with x to the left and z to the front.
   depth::TriangleMesh Put(const depth::TriangleMesh& mesh, const Vector3f& at_m) const {
     Affine3f frame = Affine3f::Identity();
     frame.linear() << left, up, front;
@@ -57,7 +57,7 @@ depth::TriangleMesh Tube(const Vector3f& from_m, const Vector3f& to_m, float rad
                       Eigen::Translation3f((from_m + to_m) / 2) * turn * Affine3f::Identity());
 }
 
-/// A ring about the x axis.
+/// A torus about the x axis.
 depth::TriangleMesh Ring(float radius_m, float tube_m) {
   constexpr int kRound = 28;
   depth::TriangleMesh ring;
@@ -69,7 +69,7 @@ depth::TriangleMesh Ring(float radius_m, float tube_m) {
   return ring;
 }
 
-/// A large wheel about the x axis, its middle at the origin, the hand rim outside at +x.
+/// A large wheel about the x axis with its hub at the origin; the hand rim is at +x.
 depth::TriangleMesh Wheel(float radius_m) {
   constexpr int kSpokes = 12;
   depth::TriangleMesh wheel = Ring(radius_m, 0.017F);
@@ -84,14 +84,14 @@ depth::TriangleMesh Wheel(float radius_m) {
   return wheel;
 }
 
-/// What a chair measures, metres.
+/// Sizes of a chair, metres.
 struct ChairSize {
   float width_m, deep_m, back_m, arm_m, wheel_m;
 };
 
-/// Of a chair that stands on y = 0 with the hips over x = z = 0; its seat at `seat_m`.
+/// A chair on y = 0 with the hips over x = z = 0 and its seat at `seat_m`.
 depth::TriangleMesh MakeWheelchair(const ChairSize& size, float seat_m) {
-  constexpr float kBehind_m = 0.15F;  // from the hips' middle to the back rest
+  constexpr float kBehind_m = 0.15F;  // from the hip centre to the backrest
   const float half_m = size.width_m / 2, front_m = size.deep_m - kBehind_m;
   const auto box = [](const Vector3f& size_m, const Vector3f& at_m) {
     return depth::Moved(depth::MakeBox(size_m), Affine3f(Eigen::Translation3f(at_m)));
@@ -123,7 +123,7 @@ depth::TriangleMesh MakeWheelchair(const ChairSize& size, float seat_m) {
   return chair;
 }
 
-/// From the seat's corner down to a plate under the foot.
+/// A leg rest from the seat's corner to a footplate.
 depth::TriangleMesh Footplate(const recon::Posture& joints, bool left, const Axes& axes,
                               const Vector3f& corner_m) {
   const Vector3f ankle_m = joints[left ? Joint::kAnkleLeft : Joint::kAnkleRight].cast<float>();
@@ -157,7 +157,7 @@ depth::TriangleMesh MakeCrutch(const recon::Posture& joints, bool left, bool to_
     depth::Append(crutch, Tube(pad_m - 1.5F * forward, pad_m + 1.5F * forward, 0.025F));
     return crutch;
   }
-  constexpr float kCuff = 0.75F;  // of the way from the hand to the elbow; share
+  constexpr float kCuff = 0.75F;  // share of the way from the hand to the elbow
   constexpr float kSkin_m = 0.05F;
   const Vector3f cuff_m = hand_m + kCuff * (elbow_m - hand_m) - kSkin_m * axes.front;
   depth::Append(crutch, Tube(foot_m, hand_m, 0.013F));
@@ -200,7 +200,7 @@ bool HoldsCrutch(const recon::RigPose& pose) {
 }
 
 std::vector<Prop> SampleWheelchair(const recon::Posture& joints_in_world, Random& random) {
-  constexpr float kFlesh_m = 0.1F;  // from the hips' joints to the seat
+  constexpr float kFlesh_m = 0.1F;  // from the hip joints to the seat
   const float width_m = Draw(random, 0.38, 0.5), deep_m = Draw(random, 0.38, 0.46);
   const float back_m = Draw(random, 0.32, 0.5), arm_m = Draw(random, 0.18, 0.26);
   const ChairSize size{width_m, deep_m, back_m, arm_m, Draw(random, 0.27, 0.31)};

@@ -8,23 +8,22 @@
 
 namespace ossa::tools {
 
-/// Wheelchairs and crutches: what people sit in or walk on, part 32. World: y up, floor at y = 0;
-/// joints in world, metres.
+// Wheelchairs and crutches (part 32). World: metres, y up, floor at y = 0.
 
-/// Bends the legs to a seat's, feet before it, and lowers the hips to where a wheelchair has them.
-/// The trunk must be upright.
+/// Changes an upright pose into one that sits in a wheelchair: legs bent, feet forward, hips at
+/// seat height. The trunk must be upright.
 void SitDown(recon::RigPose* pose, Random& random);
 
-/// Whether the left hand is where that of somebody on crutches is: beside the body, a little before
-/// it, the elbow slightly bent.
+/// True if the left hand is where a person on crutches holds it: beside the body and slightly in
+/// front of it, the elbow slightly bent.
 bool HoldsCrutch(const recon::RigPose& pose);
 
-/// The chair of somebody who sits in it: seat, back with handles, arms, two large wheels with
+/// The wheelchair of a seated person: seat, back with handles, armrests, two large wheels with
 /// spokes and hand rims, two castors, footplates.
 std::vector<Prop> SampleWheelchair(const recon::Posture& joints_in_world, Random& random);
 
 /// One crutch or, more often, two: from the floor to the hand and on to a cuff at the forearm, or
-/// to the armpit. Each goes along with its hand.
+/// to the armpit. Each moves with its hand.
 std::vector<Prop> SampleCrutches(const recon::Posture& joints_in_world, Random& random);
 
 }  // namespace ossa::tools

@@ -5,9 +5,9 @@
 
 namespace ossa::tools {
 
-/// Where the body and the motion of these sources (folders or files of mocap, "authored") come from
-/// and under which terms: DatasetManifest::terms. A folder is the CMU's by its own name, whatever
-/// the folders that it is in are called: of all others ossa knows no terms.
+/// Origin and licences of the body and of the motion in `sources` (folders or files of mocap,
+/// "authored"), for DatasetManifest::terms. A folder counts as the CMU's by its own name, not by
+/// its parents'; the terms of other folders are unknown.
 std::vector<std::string> ListTerms(std::span<const std::string> sources);
 
 }  // namespace ossa::tools

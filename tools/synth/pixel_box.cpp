@@ -11,7 +11,7 @@ constexpr int kBorder_px = 12;  // rendered around the people, for edges and sha
 
 PixelBox BoundingBoxOf(const std::vector<Eigen::Vector3f>& vertices_m,
                        const depth::Camera& camera) {
-  constexpr float kTooNear_m = 0.1f;  // projects anywhere; by hand
+  constexpr float kTooNear_m = 0.1f;  // by hand: nearer points project far outside
   PixelBox box;
   float u0 = 1e9f, u1 = -1e9f, v0 = 1e9f, v1 = -1e9f;
   for (const auto& p : vertices_m) {

@@ -7,7 +7,7 @@
 
 namespace ossa::tools {
 
-/// A rectangle of pixels, bounds inclusive; empty from the start.
+/// A rectangle of pixels, bounds inclusive; empty by default.
 struct PixelBox {
   int u0 = std::numeric_limits<int>::max(), v0 = u0, u1 = -1, v1 = -1;
 };
@@ -15,7 +15,7 @@ struct PixelBox {
 /// Pixels that a mesh (vertices in camera space, metres) may cover, and a border around them.
 PixelBox BoundingBoxOf(const std::vector<Eigen::Vector3f>& vertices_m, const depth::Camera& camera);
 
-/// The least box around both.
+/// The smallest box around both.
 PixelBox Union(const PixelBox& a, const PixelBox& b);
 
 }  // namespace ossa::tools

@@ -45,7 +45,7 @@ uint64_t CellKey(const recon::Posture& posture, double cell_m) {
 }
 
 Vector3d AnyDirection(Random& random) {
-  // In g++'s order, from when these were arguments: data sets stay the same.
+  // Drawn in the order in which GCC once evaluated them as arguments: data sets stay the same.
   const double z = random.Normal(0, 1), y = random.Normal(0, 1), x = random.Normal(0, 1);
   const Vector3d v(x, y, z);
   return v.norm() > 1e-6 ? Vector3d(v.normalized()) : Vector3d::UnitX();
@@ -92,14 +92,14 @@ void RandomArm(size_t side, recon::RigPose* pose, Random& random) {
   const Quaterniond swing =
       recon::SmallestTurn(RestDirection(arm.first), direction) *
       Quaterniond(AngleAxisd(random.Uniform(-1.2, 1.2), RestDirection(arm.first)));
-  // The elbow's hinge: across upper arm and forearm at rest, where it is bent a little already.
+  // The elbow's axis is normal to upper arm and forearm at rest, where it is slightly bent.
   const Vector3d hinge = RestDirection(arm.first).cross(RestDirection(arm.first + 1)).normalized();
   const Quaterniond bend(AngleAxisd(random.Uniform(-0.6, 1.9), hinge));
   pose->world_from_rest[arm.first] = trunk * swing;
   for (size_t b = arm.first + 1; b < arm.first + arm.count; ++b) {
     pose->world_from_rest[b] = trunk * swing * bend;
   }
-  // The collar rises with the arm, or the shoulder tears.
+  // The collarbone rises with the arm, else the skin of the shoulder tears.
   const Quaterniond whole = recon::SmallestTurn(RestDirection(arm.first), direction);
   pose->world_from_rest[kCollar[side]] = trunk * Quaterniond::Identity().slerp(0.25, whole);
 }
@@ -115,7 +115,7 @@ recon::RigPose Mirrored(const recon::RigPose& pose) {
                         : left_arm  ? b + 7
                         : right_arm ? b - 7
                                     : b;
-    // A rotation seen in the mirror x -> -x keeps its part about x and turns the others round.
+    // Mirroring at x = 0 keeps a rotation's x component and negates y and z.
     const Quaterniond& q = pose.world_from_rest[from];
     mirrored.world_from_rest[b] = Quaterniond(q.w(), q.x(), -q.y(), -q.z());
   }

@@ -8,12 +8,13 @@
 
 namespace ossa::tools {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 struct PoseBankOptions {
-  /// A frame is redundant when no joint moved farther than this since the last frame kept.
+  /// A frame is redundant if no joint moved farther than this since the last frame kept.
   double least_distance_m = 0.05;
-  /// Poses alike (all joints in the same cells of this size) are kept at most so often.
+  /// Poses are similar if all joints lie in the same cells of this size; at most `most_alike`
+  /// similar poses are kept.
   double cell_m = 0.18;
   int most_alike = 6;
 };
@@ -30,27 +31,27 @@ struct PoseVariation {
   double random_posture_share = 0.0;  // of frames: all joints anywhere within their limits
 };
 
-/// How often poses are had.
+/// Distribution of the poses.
 enum class Poses {
-  kSpread,   // what people do seldom nearly as often as what they do all the time
-  kNatural,  // as often as people take them: a pose is as likely as another of the clips
-  kAny,      // as spread; one in four frames any posture that joints can take
+  kSpread,   // rare poses nearly as often as frequent ones
+  kNatural,  // all frames of the clips are equally likely
+  kAny,      // as kSpread; one frame in four has a random posture within the joint limits
 };
 std::optional<Poses> PosesFromName(std::string_view name);
 PoseBankOptions MakeBankOptions(Poses poses);
 PoseVariation MakeVariation(Poses poses);
 
-/// The pose seen in a mirror: left and right change places.
+/// The mirrored pose: left and right are exchanged.
 recon::RigPose Mirrored(const recon::RigPose& pose);
 
-/// A pose like the given one, as another person would take it.
+/// A random variation of the pose.
 recon::RigPose Varied(const recon::RigPose& pose, const PoseVariation& variation, Random& random);
 
-/// One arm anywhere it can go, 0 left and 1 right: in the half space outside of the trunk and
-/// before it.
+/// Moves one arm (0 left, 1 right) to a random place within its joint limits, in the half space
+/// beside and in front of the trunk.
 void RandomArm(size_t side, recon::RigPose* pose, Random& random);
 
-/// The pose turned about the vertical through the origin.
+/// The pose rotated about the vertical through the origin.
 recon::RigPose Turned(const recon::RigPose& pose, double angle_rad);
 
 }  // namespace ossa::tools

@@ -18,9 +18,8 @@ float Draw(Random& random, double low, double high) {
   return static_cast<float>(random.Uniform(low, high));
 }
 
-// Draws have names, or stand in braces: in which order the arguments of a call are drawn is the
-// compiler's to choose. The orders here are g++'s, from when they stood there: data sets stay the
-// same.
+// Random draws are named or in braces, because the order in which a call's arguments are evaluated
+// is unspecified. The orders are those of GCC when they were arguments: data sets stay the same.
 
 Eigen::Quaternionf AnyRotation(Random& random) {
   const double z = random.Normal(0, 1), y = random.Normal(0, 1);
@@ -28,7 +27,7 @@ Eigen::Quaternionf AnyRotation(Random& random) {
   return Eigen::Quaterniond(w, x, y, z).cast<float>().normalized();
 }
 
-/// A thing that fits a hand, centred near where it is held.
+/// An object held in one hand, its grip near the origin.
 depth::TriangleMesh SmallThing(Random& random) {
   switch (random.Index(4)) {
     case 0:
@@ -52,7 +51,7 @@ depth::TriangleMesh SmallThing(Random& random) {
   }
 }
 
-/// A bulky thing carried between both hands.
+/// A bulky object carried between both hands.
 depth::TriangleMesh LargeThing(float span_m, Random& random) {
   const float width_m = std::clamp(span_m, 0.12F, 0.7F);
   if (random.Chance(0.3)) return depth::MakeBall(width_m / 2);
@@ -68,7 +67,7 @@ Prop HeldInOneHand(const recon::Posture& joints, Random& random) {
       true, left ? Grip::kLeftHand : Grip::kRightHand};
 }
 
-/// Between the hands, turned as the line between them lies.
+/// Pose of an object between the hands, rotated with the line between them.
 Prop HeldInBothHands(const recon::Posture& joints, Random& random) {
   const Vector3f left_m = joints[Joint::kHandLeft].cast<float>();
   const Vector3f right_m = joints[Joint::kHandRight].cast<float>();
@@ -84,13 +83,13 @@ double Span_m(const recon::Posture& joints) {
   return (joints[Joint::kHandLeft] - joints[Joint::kHandRight]).norm();
 }
 
-/// `widest_m`: how far apart the hands ever are.
+/// `widest_m`: the largest distance between the hands.
 Prop Held(const recon::Posture& joints, double widest_m, Random& random) {
   return widest_m < 0.8 && random.Chance(0.5) ? HeldInBothHands(joints, random)
                                               : HeldInOneHand(joints, random);
 }
 
-/// A thing on the floor, or at some height, between the person and the camera.
+/// An occluder on the floor, or at some height, between the person and the camera.
 Prop StandingBefore(const recon::Posture& joints, const Eigen::Isometry3d& camera_from_world,
                     Random& random) {
   const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
@@ -128,7 +127,7 @@ Prop StandingBefore(const recon::Posture& joints, const Eigen::Isometry3d& camer
       depth::Moved(std::move(mesh), Eigen::Translation3f(foot_m) * turn * Affine3f::Identity())};
 }
 
-/// Where a grip is, and the line that turns with it.
+/// Place of a grip, and the line that rotates with it.
 struct Grasp {
   Vector3f place_m, along;
 };
@@ -156,9 +155,9 @@ Eigen::AlignedBox2f ProjectOnGround(const depth::TriangleMesh& mesh) {
   return ground;
 }
 
-/// Over the floor, everything that the person of the path may touch.
+/// Bounding box on the floor plan of everything that the person may touch on the path.
 Eigen::AlignedBox2f ProjectOnGround(std::span<const recon::Posture> path_in_world) {
-  constexpr float kFlesh_m = 0.2F;  // from a joint to the skin and a little air; by hand
+  constexpr float kFlesh_m = 0.2F;  // from a joint to the skin, and clearance; by hand
   Eigen::AlignedBox2f ground;
   for (const recon::Posture& posture : path_in_world) {
     for (const auto& joint_m : posture.position_m) {
@@ -198,7 +197,7 @@ std::vector<Prop> SampleLastingProps(Occluders kind, std::span<const recon::Post
   double widest_m = 0.0;
   for (const auto& posture : path_in_world) widest_m = std::max(widest_m, Span_m(posture));
   std::vector<Prop> props;
-  // With `any` most frames are free: a model must not expect a box in every hand.
+  // With `any`, most frames have no props: a model must not learn to expect them.
   const bool held = kind == Occluders::kHeld || (kind == Occluders::kAny && random.Chance(0.2));
   const bool scene = kind == Occluders::kScene || (kind == Occluders::kAny && random.Chance(0.2));
   if (held) props.push_back(Held(path_in_world[0], widest_m, random));
@@ -247,18 +246,19 @@ depth::TriangleMesh SampleFurniture(Random& random) {
 
 namespace {
 
-/// Where a place of the world lies on the floor plan.
+/// Coordinates of a world point on the floor plan.
 Eigen::Vector2f OnGround(const Eigen::Vector3d& place_m) {
   return Eigen::Vector2d(place_m.x(), place_m.z()).cast<float>();
 }
 
-/// A room about the origin, over which the person stands while the camera looks along -z: metres
-/// from there to the walls behind the person and before it, width, and how far its middle is aside.
+/// A room around the origin, where the person stands; the camera looks along -z. Distances in
+/// metres from the person to the wall behind it and to the wall behind the camera, width, and
+/// sideways offset of the centre.
 struct RoomExtent {
   float behind_m, before_m, width_m, shift_m;
 };
 
-/// Large enough for the person, all cameras and `path`, on the floor plan.
+/// A room that contains the person, all cameras and `path` on the floor plan.
 RoomExtent SampleRoomExtent(Random& random, const Eigen::Vector3d& camera_m,
                             const Eigen::AlignedBox2f& path,
                             std::span<const Eigen::Vector3d> cameras_m) {
@@ -289,7 +289,7 @@ RoomExtent SampleRoomExtent(Random& random, const Eigen::Vector3d& camera_m,
   return room;
 }
 
-/// Furniture along the wall behind, and at either side of the person, never on the person's place.
+/// Furniture along the wall behind the person and at both sides, not at the person's place.
 depth::TriangleMesh SamplePlacedFurniture(Random& random, const RoomExtent& room) {
   const float side = random.Chance(0.5) ? 1.0F : -1.0F;
   const float z_m = -Draw(random, 0.0, room.behind_m);
@@ -305,7 +305,8 @@ depth::TriangleMesh SamplePlacedFurniture(Random& random, const RoomExtent& room
 std::vector<Prop> SampleRoom(const Eigen::Isometry3d& camera_from_world, Random& random,
                              std::span<const recon::Posture> path_in_world,
                              std::span<const Eigen::Vector3d> cameras_m) {
-  constexpr float kLowCeiling_m = 2.4F, kAir_m = 0.05F;  // over the camera; by hand
+  constexpr float kLowCeiling_m = 2.4F,
+                  kAir_m = 0.05F;  // ceiling, and clearance above the camera; by hand
   const Eigen::Vector3d camera_m = camera_from_world.inverse().translation();
   Eigen::AlignedBox2f path = ProjectOnGround(path_in_world);
   for (const Eigen::Vector3d& other_m : cameras_m) path.extend(OnGround(other_m));

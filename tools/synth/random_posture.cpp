@@ -22,13 +22,13 @@ Quaterniond Turn(double degrees, const Vector3d& axis) {
   return Quaterniond(AngleAxisd(degrees * std::numbers::pi / 180.0, axis));
 }
 
-/// Forwards, to the left and about its length, in that share of it.
+/// Bends forwards, to the left, and twists, each by a share of its limit.
 Quaterniond Bend(double forwards, double left, double turn, double share) {
   return Turn(share * turn, Vector3d::UnitY()) * Turn(share * forwards, Vector3d::UnitX()) *
          Turn(-share * left, Vector3d::UnitZ());
 }
 
-/// How the pelvis lies in the world.
+/// Orientation of the pelvis in the world.
 Quaterniond DrawPelvis(Random& random) {
   const double kind = random.Unit();
   const double pitch = random.Uniform(-20, 20), roll = random.Uniform(-15, 15);
@@ -58,7 +58,7 @@ void RandomLeg(size_t side, recon::RigPose* pose, Random& random) {
   constexpr size_t kFirst[2] = {1, 6};  // hip, thigh, shin, foot, toes follow each other
   const double sign = side == 0 ? 1.0 : -1.0;
   const double flex = random.Uniform(-15, 115), abduct = random.Uniform(-12, 40);
-  // Only a bent hip turns far.
+  // Only a bent hip can rotate far.
   const double turn = random.Uniform(-15, 45) * (flex > 40 ? 1.0 : 0.5);
   const double knee = random.Chance(0.3) ? random.Uniform(0, 15) : random.Uniform(0, 138);
   const double foot = random.Uniform(-15, 40);
@@ -71,7 +71,7 @@ void RandomLeg(size_t side, recon::RigPose* pose, Random& random) {
   r[hip + 3] = r[hip + 4] = r[hip + 2] * Turn(foot, Vector3d::UnitX());
 }
 
-/// The lowest joint about as far above the floor as its flesh goes.
+/// Puts the lowest joint above the floor by the thickness of its flesh.
 void StandOnFloor(recon::RigPose* pose) {
   constexpr double kFlesh_m = 0.06;
   const recon::Posture posture = recon::StandardPosture(*pose);

@@ -4,9 +4,8 @@
 
 namespace ossa::tools {
 
-/// A posture nobody was recorded in: trunk, head, arms and legs anywhere within the limits of their
-/// joints, standing, bent, or lying on back, belly or side, on the floor; facing +z over the
-/// origin.
+/// A random pose within the joint limits of trunk, head, arms and legs: standing, bent over, or
+/// lying on back, belly or side, on the floor (y = 0); facing +z at the origin.
 recon::RigPose RandomPosture(Random& random);
 
 }  // namespace ossa::tools

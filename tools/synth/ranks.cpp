@@ -23,7 +23,8 @@ Ranks::Ranks() {
 
 Ranks::~Ranks() {
   if (!started_) return;
-  // A rank that failed must not wait for the others: mpirun ends them when it exits without this.
+  // A failed rank must not wait for the others: it exits without MPI_Finalize, and mpirun ends
+  // them.
   if (std::uncaught_exceptions() == 0) MPI_Finalize();
 }
 

@@ -2,8 +2,8 @@
 
 namespace ossa::tools {
 
-/// The processes that share a job under mpirun; one process without it, or without MPI. MPI is only
-/// started when a launcher's environment says so: its start costs a tenth of a second.
+/// The processes that share a job under mpirun; a single one without mpirun or MPI. MPI is only
+/// initialised if the environment shows a launcher, because that takes 0.1 s.
 class Ranks {
  public:
   Ranks();
@@ -13,7 +13,7 @@ class Ranks {
 
   int rank() const { return rank_; }
   int size() const { return size_; }
-  /// Waits for every rank; true when all said true.
+  /// Waits for every rank; true if `mine` is true on all.
   bool All(bool mine) const;
 
  private:

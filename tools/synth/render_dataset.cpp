@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The unit of work, of resuming and of a shard file. Small enough that two threads end together.
+// Frames of a shard file, the unit of work and of resuming: small, so that threads end together.
 constexpr int64_t kFramesPerChunk = 64;  // by hand
 
 int64_t ChunkCount(const RenderJob& job) {
@@ -54,7 +54,7 @@ std::string ReadText(const fs::path& path) {
   return text.str();
 }
 
-// Files of motion may change between two runs of one command: names do not say what is in them.
+// Motion files may change between two runs of one command, so the digest covers their content.
 std::string DigestOf(const std::vector<recon::RigPose>& poses) {
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                        XXH3_freeState);
@@ -92,7 +92,7 @@ void MakeFolder(const fs::path& folder) {
   if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
 }
 
-// Claims the folder for this job, or finds that it was claimed for the same.
+// Reserves the folder for this job. Throws InputError if it is reserved for another.
 void PrepareFolder(const RenderJob& job, const std::string& plan) {
   const fs::path manifest = job.out / "manifest.json";
   const fs::path started = WorkFolder(job) / kPlanFile;
@@ -106,7 +106,7 @@ void PrepareFolder(const RenderJob& job, const std::string& plan) {
   }
   if (fs::exists(manifest)) return;
   if (!fs::exists(started) && fs::exists(job.out) && !fs::is_empty(job.out)) {
-    // Ranks of one job may arrive while others have begun: only foreign things matter.
+    // Other ranks of this job may have begun: only foreign files are an error.
     for (const auto& entry : fs::directory_iterator(job.out)) {
       if (entry.path().filename() == kWorkFolder) continue;
       throw InputError(job.out.string() + ": expected an empty folder, found " +
@@ -133,7 +133,7 @@ bool ChunkIsThere(const RenderJob& job, int64_t chunk) {
          (!job.packed || fs::exists(ShardPath(job.out, chunk)));
 }
 
-// Returns false when interrupted: then nothing of the chunk counts as made.
+// Returns false if interrupted: then the chunk is not finished.
 bool RenderChunk(const RenderJob& job, const depth::Camera& whole, int64_t chunk, FrameMaker* maker,
                  std::atomic<int64_t>* done) {
   const int64_t first = chunk * kFramesPerChunk;
@@ -165,7 +165,7 @@ void JoinTruth(const RenderJob& job) {
   truth.Commit();
 }
 
-// This rank's chunks that are not made yet; counts the frames of those that are.
+// This rank's unfinished chunks; counts the frames of the finished ones.
 std::vector<int64_t> FindChunksToMake(const RenderJob& job, std::atomic<int64_t>* done) {
   std::vector<int64_t> chunks;
   for (int64_t chunk = job.rank; chunk < ChunkCount(job); chunk += job.ranks) {
@@ -178,7 +178,7 @@ std::vector<int64_t> FindChunksToMake(const RenderJob& job, std::atomic<int64_t>
   return chunks;
 }
 
-// Threads that make one chunk after the other. The first failure stops them all.
+// Threads that render chunks one after another. The first failure stops all of them.
 class ChunkWorkers {
  public:
   ChunkWorkers(const FrameInputs& inputs, const RenderJob& job)
@@ -240,8 +240,8 @@ RenderEnd RenderShare(const FrameInputs& inputs, const RenderJob& job) {
 void FinishDataset(const FrameInputs& inputs, const RenderJob& job) {
   if (!fs::exists(job.out / "manifest.json")) {
     if (job.png) JoinTruth(job);
-    RemoveLeftovers(job.out);  // of runs that were killed: all of it was made again
-    SyncFiles(job.out);        // the manifest says that all is there
+    RemoveLeftovers(job.out);  // of killed runs; their chunks were rendered again
+    SyncFiles(job.out);        // a manifest promises that all files are complete
     WriteText(job.out / "manifest.json", ManifestToJson(MakeManifest(inputs, job)));
   }
   std::error_code ignored;

@@ -14,9 +14,9 @@ struct RenderJob {
   bool png = true;
   bool packed = false;
   int threads = 1;
-  int rank = 0;  // of `ranks` processes that share the work and the folder
+  int rank = 0;  // index among `ranks` processes that share the work and the folder
   int ranks = 1;
-  std::string command;               // for the manifest; says nothing of threads and ranks
+  std::string command;               // for the manifest, without threads and ranks
   std::vector<std::string> sources;  // of motion
   std::string ossa;                  // this version
   std::vector<std::string> terms;
@@ -26,12 +26,12 @@ struct RenderJob {
 
 enum class RenderEnd { kDone, kInterrupted };
 
-/// Renders this rank's share of a data set into a folder. Work that is there already from a run of
-/// the same job, even one that was killed, is kept. Throws InputError when the folder holds
-/// something else. The set is complete after FinishDataset.
+/// Renders this rank's share of a data set into a folder. Finished chunks of an earlier run of the
+/// same job are kept. Throws InputError if the folder holds anything else. The data set is complete
+/// after FinishDataset().
 RenderEnd RenderShare(const FrameInputs& inputs, const RenderJob& job);
 
-/// Joins what the ranks made and writes the manifest: call once, when all are done.
+/// Joins the chunks of all ranks and writes the manifest. Call once, after all ranks are done.
 void FinishDataset(const FrameInputs& inputs, const RenderJob& job);
 
 }  // namespace ossa::tools

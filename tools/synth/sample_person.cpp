@@ -30,7 +30,7 @@ recon::BodyShape DrawShape(Random& random) {
   shape.weight = within(0.5, 0.22, 0.05, 1.0);
   shape.height = within(0.5, 0.07, 0.33, 0.67);
   shape.proportions = random.Uniform(0.25, 1.0);
-  const double a = -std::log(1.0 - random.Uniform(0, 1));  // a flat draw of three shares
+  const double a = -std::log(1.0 - random.Uniform(0, 1));  // three shares, uniformly distributed
   const double b = -std::log(1.0 - random.Uniform(0, 1));
   const double c = -std::log(1.0 - random.Uniform(0, 1));
   shape.african = a / (a + b + c);
@@ -64,7 +64,7 @@ recon::BodyShape SampleAnyShape(Split split, Random& random) {
 
 recon::Clothing SampleClothing(Random& random) {
   recon::Clothing wear;
-  // Tight, ordinary or loose: most of the cloth's effect on depth is its distance from the skin.
+  // Tight, ordinary or loose: the distance from the skin has the largest effect on depth.
   const auto thickness_m = [&] {
     const double kind = random.Uniform(0, 1);
     return kind < 0.3   ? random.Uniform(0.001, 0.005)
@@ -103,7 +103,7 @@ recon::Clothing SampleHangingClothing(Random& random) {
   if (kind < 0.5) {  // a T-shirt or a loose pullover
     wear.sleeve_end = random.Chance(0.6) ? random.Uniform(0.35, 0.8) : random.Uniform(1.7, 2.0);
     wear.sleeve_m = random.Uniform(0.008, 0.03);
-  } else if (kind < 0.8) {  // a coat: over the hips it is the skirt layer
+  } else if (kind < 0.8) {  // a coat; below the hips it uses the skirt layer
     wear.shirt_m = random.Uniform(0.015, 0.04);
     wear.sleeve_m = random.Uniform(0.012, 0.03);
     wear.sleeve_end = random.Uniform(1.8, 2.0);
@@ -120,7 +120,7 @@ recon::Clothing SampleHangingClothing(Random& random) {
 
 double SampleGloves_m(Random& random) {
   constexpr double kShare = 0.12;                        // share of people who wear any; by hand
-  constexpr double kThin_m = 0.002, kMittens_m = 0.013;  // thickness of what is sold; by hand
+  constexpr double kThin_m = 0.002, kMittens_m = 0.013;  // thickness of gloves on sale; by hand
   return random.Chance(kShare) ? random.Uniform(kThin_m, kMittens_m) : 0.0;
 }
 

@@ -9,19 +9,18 @@
 
 namespace ossa::tools {
 
-/// Shapes as they are among people: men and women, one in six a child, thin and stout, 1.2-2.0 m.
-/// Train and test shapes come from disjoint cells of muscle, weight and height.
+/// A random body shape: men and women, one in six a child, thin to stout, 1.2-2.0 m tall. Train and
+/// test shapes come from disjoint cells of muscle, weight and height.
 recon::BodyShape SampleShape(Split split, Random& random);
-/// One in three is from the ends of the range: very small or tall, very thin or stout.
+/// As SampleShape(), but one in three is extreme: very small or tall, very thin or stout.
 recon::BodyShape SampleAnyShape(Split split, Random& random);
 
 recon::Clothing SampleClothing(Random& random);
 
-/// In half of the draws also what hangs and falls in folds: T-shirts, coats, skirts, hoods, long
-/// hair.
+/// In half of the draws also loose clothes and hair: T-shirts, coats, skirts, hoods, long hair.
 recon::Clothing SampleHangingClothing(Random& random);
 
-/// How thick somebody's gloves are; 0: none, as of most.
+/// Thickness of gloves, metres; usually 0: none.
 double SampleGloves_m(Random& random);
 
 }  // namespace ossa::tools

@@ -30,7 +30,7 @@ Extent MeasureExtent(const recon::MotionClip& clip, size_t count) {
 std::vector<recon::RigPose> SequencePoses(const std::vector<recon::MotionClip>& clips,
                                           int64_t frames, uint64_t seed) {
   std::vector<const recon::MotionClip*> fitting;
-  const recon::MotionClip* best = nullptr;  // the longest, when none fits
+  const recon::MotionClip* best = nullptr;  // the longest, if none fits
   for (const auto& clip : clips) {
     if (clip.frames.empty()) continue;
     if (best == nullptr || clip.frames.size() > best->frames.size()) best = &clip;

@@ -6,8 +6,9 @@
 
 namespace ossa::tools {
 
-/// At least one clip's worth of consecutive poses for `frames` frames, drawn by seed among the
-/// clips that are long enough and stay within view; facing +z at the start, around the origin.
+/// Consecutive poses of one clip: `frames` of them, drawn by seed among the clips that are long
+/// enough and stay within view, else all of the longest clip. Facing +z at the start, around the
+/// origin.
 std::vector<recon::RigPose> SequencePoses(const std::vector<recon::MotionClip>& clips,
                                           int64_t frames, uint64_t seed);
 

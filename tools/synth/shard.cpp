@@ -15,10 +15,10 @@ constexpr ContainerFormat kShardFormat{{'O', 'S', 'S', 'A', 'S', 'H', 'R', 'D'},
 // Constants: by hand; the largest sizes are bounds, against damaged files.
 
 constexpr int kCropBorder = 4;        // pixels of background kept around the labelled ones
-constexpr int kCompressionLevel = 1;  // the fastest; higher levels save under a tenth; of zstd
+constexpr int kCompressionLevel = 1;  // of zstd, the fastest; higher levels save less than 10 %
 constexpr uint64_t kLargestFrame_bytes = uint64_t{1} << 28;
 constexpr int kLargestSide = 8192;
-// Bits of a byte of the format: what of a frame is not in all of them.
+// Bits of a byte of the format: optional content of a frame.
 constexpr uint8_t kHasFloor = 1, kHasWhole = 2;
 
 struct ContextDeleter {
@@ -26,8 +26,8 @@ struct ContextDeleter {
   void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
 };
 
-// Neighbours differ little: the difference to the pixel on the left, low bytes then high bytes,
-// packs to about half of what plain millimetres would.
+// Differences to the pixel on the left, low bytes before high bytes, compress to about half the
+// size of plain millimetres.
 std::vector<uint8_t> DepthPlanes(const std::vector<uint16_t>& depth_mm) {
   std::vector<uint8_t> planes(depth_mm.size() * 2);
   uint16_t last = 0;
@@ -197,7 +197,7 @@ LabelledFrame UnpackFrame(const Shard& shard, int64_t index) {
   const uint8_t* blob = shard.blobs.data() + shard.offsets[place];
   const size_t size = shard.offsets[place + 1] - shard.offsets[place];
   const auto raw_size = ZSTD_getFrameContentSize(blob, size);
-  if (raw_size > kLargestFrame_bytes) {  // the library's error codes are the largest numbers
+  if (raw_size > kLargestFrame_bytes) {  // zstd's error codes are the largest numbers
     throw InputError(name + ": expected a zstd frame of known size, found other bytes");
   }
   std::vector<std::byte> raw(raw_size);

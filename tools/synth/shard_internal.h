@@ -9,9 +9,9 @@
 
 namespace ossa::tools {
 
-/// Frames packed one behind the other: a checksummed container of zstd blobs, one a frame, cropped
-/// to the people. A few frames (DatasetManifest::frames_per_shard) a file, so that reading one is
-/// cheap and rendering resumes at a shard.
+/// A file of packed frames: a checksummed container of zstd blobs, one per frame, cropped to the
+/// people. A shard has few frames (DatasetManifest::frames_per_shard), so that reading one is fast
+/// and rendering can resume at a shard.
 struct Shard {
   int64_t first_index = 0;
   std::vector<uint64_t> offsets;  // count + 1 entries into blobs
@@ -32,7 +32,7 @@ void WriteShard(const std::filesystem::path& path, int64_t first_index,
 /// Throws InputError naming the file unless it holds frames first_index .. + count - 1.
 Shard ReadShard(const std::filesystem::path& path, int64_t first_index, int64_t count);
 
-/// The part of a frame inside of a rectangle that lies in its image.
+/// The part of a frame in a rectangle (pixels) inside its image; the camera is shifted.
 LabelledFrame Cropped(const LabelledFrame& frame, int u0, int v0, int width, int height);
 
 }  // namespace ossa::tools

@@ -7,8 +7,8 @@
 namespace ossa::tools {
 namespace {
 
-/// The pixels of one axis of the large crop that are kept, and the first one's place in the shrunk
-/// image.
+/// Pixels of the large crop that are kept along one axis, and the position of the first one in the
+/// shrunk image.
 struct KeptAxis {
   int first = 0;
   std::vector<int> from;

@@ -3,10 +3,10 @@
 
 namespace ossa::tools {
 
-/// The frame shrunk by nearest neighbour, as who keeps depth images small does: pixel u of the
-/// shrunk image is pixel floor((u + 1/2) shrink) of the large one. `frame` is the crop that begins
-/// at (u0, v0) of the large image; `whole` the camera of the whole shrunk one. Joints and floor
-/// stay.
+/// Shrinks a frame by nearest neighbour, as recorders do that keep depth images small: pixel u of
+/// the shrunk image is pixel floor((u + 1/2) shrink) of the large one. `frame` is a crop of the
+/// large image that begins at (u0, v0); `whole` is the camera of the whole shrunk image. Joints and
+/// floor stay the same.
 LabelledFrame ShrunkFrame(const LabelledFrame& frame, int u0, int v0, double shrink,
                           const depth::Camera& whole);
 

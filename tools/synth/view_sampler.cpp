@@ -10,14 +10,14 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
-/// Where the camera stands and what it looks at.
+/// Position and direction of the camera.
 struct Placement {
   double distance_m = 2.5;    // on the floor, from the person's vertical axis
   double height_m = 1.0;      // of the camera
-  double aim_height_m = 0.9;  // height on the person's axis that the optical axis meets
-  double aside_rad = 0.0;     // turns the person off the centre of the image
+  double aim_height_m = 0.9;  // height at which the optical axis meets the person's axis
+  double aside_rad = 0.0;     // moves the person sideways in the image
   double roll_rad = 0.0;
   double facing_rad = 0.0;
   double aim_ahead_m = 0.0;  // of the person's axis, towards the camera
@@ -39,7 +39,7 @@ Placement DrawFront(double person_m, Random& random) {
   Placement place;
   place.distance_m = random.Uniform(1.6, 4.0);
   place.height_m = random.Uniform(0.4, 2.0);
-  // Near people fill the image, so the aim is at their middle; far ones stand anywhere in it.
+  // Near people fill the image and are centred; far people are anywhere in it.
   const double slack = std::clamp((place.distance_m - 2.0) / 2.0, 0.0, 1.0);
   place.aim_height_m = person_m * (0.52 + random.Uniform(-0.2, 0.2) * (0.3 + slack));
   place.aside_rad = random.Uniform(-14, 14) * kDegree * (0.4 + 0.6 * slack);
@@ -60,7 +60,7 @@ Placement DrawNear(double person_m, Random& random) {
 
 Placement DrawAny(double person_m, Random& random) {
   Placement place;
-  // Even in the logarithm: as many near views as far ones.
+  // Uniform in the logarithm: as many near views as far ones.
   place.distance_m = 0.8 * std::pow(5.0 / 0.8, random.Uniform(0.0, 1.0));
   place.height_m = random.Uniform(0.3, 2.4);
   place.aim_height_m = person_m * random.Uniform(0.2, 0.9);
@@ -69,12 +69,12 @@ Placement DrawAny(double person_m, Random& random) {
   return place;
 }
 
-/// Under the ceiling, straight down or tilted, the person anywhere in the image. A camera that
-/// looks all but straight down hangs there turned anyhow; a tilted one has the far side up.
+/// A camera under the ceiling that looks straight down or tilted, the person anywhere in the image.
+/// If it looks almost straight down it has any rotation about its axis, else the far side is up.
 Placement DrawCeiling(double person_m, Random& random) {
-  constexpr double kMostTilt_deg = 35.0, kTurnedAnyhow_deg = 10.0;  // off straight down
-  constexpr double kMiddle = 0.55;                // of the body, share of its height
-  constexpr double kAcross = 0.38, kDown = 0.32;  // half the image over its distance, nearly
+  constexpr double kMostTilt_deg = 35.0, kTurnedAnyhow_deg = 10.0;  // from straight down
+  constexpr double kMiddle = 0.55;  // height of the body's centre, share of its height
+  constexpr double kAcross = 0.38, kDown = 0.32;  // about half the image's size over its distance
   constexpr double kLeastAside_m = 0.01;          // straight down has no heading
   Placement place;
   place.height_m = random.Uniform(2.2, 4.0);
@@ -99,7 +99,7 @@ Placement Draw(View view, double person_m, Random& random) {
   return place;
 }
 
-/// Of any sensor: its size, shape and field of view, and whether somebody shrunk its images.
+/// The camera of any sensor: size, aspect ratio, field of view, and shrinking.
 void DrawAnyCamera(ViewSample* sample, Random& random) {
   constexpr double kLeast_px = 100.0, kMost_px = 1280.0;
   constexpr double kNarrow_deg = 45.0, kWide_deg = 120.0;
@@ -132,7 +132,7 @@ void DrawCamera(const ViewRequest& request, ViewSample* sample, Random& random) 
   camera.cy += random.Normal(0.0, 0.01) * camera.height;
 }
 
-/// The camera stands on the person's +z side, looks at the aim, and is turned aside and rolled.
+/// A camera on the person's +z side that looks at the aim point, turned sideways and rolled.
 Eigen::Isometry3d CameraFromWorld(const Placement& place) {
   const Eigen::Vector3d position_m(place.beside_m, place.height_m, place.distance_m);
   const Eigen::Vector3d aim_m(place.beside_m, place.aim_height_m, place.aim_ahead_m);
@@ -196,7 +196,7 @@ depth::Camera ShrunkCamera(const depth::Camera& camera, double shrink) {
   const auto smaller = [&](int side) {
     return std::max(1, static_cast<int>(std::lround(side / shrink)));
   };
-  // Pixel u shows what pixel (u + 1/2) shrink - 1/2 showed, on average over the rounding.
+  // On average over the rounding, pixel u shows pixel (u + 1/2) shrink - 1/2 of the large image.
   return {.width = smaller(camera.width),
           .height = smaller(camera.height),
           .fx = camera.fx / shrink,

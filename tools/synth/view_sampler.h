@@ -8,19 +8,20 @@
 
 namespace ossa::tools {
 
-/// `ossa render --view`: front: facing the camera within 60°, whole body mostly in view, 1.5-4
-/// m; near: 0.7-1.7 m, cropped by the image; any: every side, height, distance and crop; ceiling:
-/// from 2.2 to 4 m above the floor, looking down.
+/// `ossa render --view`. Front: facing the camera within 60°, the whole body mostly in view, at
+/// 1.5-4 m; near: at 0.7-1.7 m, cropped by the image; any: every side, height, distance and crop;
+/// ceiling: a camera 2.2 to 4 m above the floor that looks down.
 enum class View { kFront, kNear, kAny, kCeiling };
 std::optional<View> ViewFromName(std::string_view name);
 std::string_view NameOf(View view);
 
-/// Train and test draw from disjoint sets of camera placements (and of body shapes).
+/// Train and test draw from disjoint sets of camera placements and of body shapes.
 enum class Split { kTrain, kTest };
 std::optional<Split> SplitFromName(std::string_view name);
 
-/// `ossa render --camera`: the Kinect v1's intrinsics; besides them others of like field of view;
-/// or images of 100 to 1280 pixels, 45° to 120° wide, of several shapes, some of them shrunk.
+/// `ossa render --camera`: the Kinect v1's intrinsics; these and others with a similar field of
+/// view; or images 100 to 1280 pixels wide, 45° to 120°, of several aspect ratios, some of them
+/// shrunk.
 enum class Cameras { kKinectV1, kGeneric, kAny };
 std::optional<Cameras> CamerasFromName(std::string_view name);
 
@@ -32,14 +33,16 @@ struct ViewRequest {
   double person_height_m = 1.7;
   Cameras cameras = Cameras::kGeneric;
   double fov_deg = 0.0;  // horizontal field of view of Cameras::kKinectV1; 0: the Kinect's
-  double shrink = 1.0;   // >= 1: the image is made so much larger and shrunk by nearest neighbour
+  double shrink = 1.0;   // factor >= 1: rendered larger, then shrunk by nearest neighbour
 };
 
-/// The camera of Cameras::kKinectV1 before shrinking, and after.
+/// The camera of Cameras::kKinectV1 before shrinking.
 depth::Camera PlainCamera(const ViewRequest& request);
+/// The camera of an image shrunk by nearest neighbour.
 depth::Camera ShrunkCamera(const depth::Camera& camera, double shrink);
 
-/// A camera and a person before it. World: y up, floor at y = 0, the person stands over the origin.
+/// A camera and the heading of a person. World: metres, y up, floor at y = 0, the person at the
+/// origin.
 struct ViewSample {
   depth::Camera camera;  // before shrinking
   double shrink = 1.0;

@@ -7,7 +7,7 @@
 namespace ossa::tools {
 namespace {
 
-/// A joint's own parts (labels of parts.h) and how far from the joint their surface counts.
+/// A joint's own parts (labels of parts.h) and the distance up to which their surface counts.
 struct JointSurface {
   std::array<uint8_t, 6> parts;
   double reach_m;
@@ -27,7 +27,7 @@ constexpr std::array<JointSurface, recon::kJointCount> kSurfaces = {{
     {{21, 23, 0, 0, 0, 0}, 0.17},  // right hip ...
     {{27, 0, 0, 0, 0, 0}, 0.13},    {{29, 0, 0, 0, 0, 0}, 0.12}, {{31, 0, 0, 0, 0, 0}, 0.14},
 }};
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr double kLeastArea_m2 = 4e-4;  // 2 × 2 cm: less is a sliver at an edge
 constexpr double kLeastPixels = 4;      // pixels
@@ -56,7 +56,7 @@ void MarkVisibleJoints(LabelledFrame* frame) {
   size_t i = 0;
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u, ++i) {
-      const size_t body = frame->users.data[i];  // ids are places in bodies, counted from 1
+      const size_t body = frame->users.data[i];  // ids are indices into bodies, from 1
       if (body == 0 || body > seen.size() || frame->depth.depth_mm[i] == 0) continue;
       const auto& joints = joints_of_part[frame->parts.data[i]];
       if (joints.empty()) continue;

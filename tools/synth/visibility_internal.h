@@ -3,8 +3,8 @@
 
 namespace ossa::tools {
 
-/// Sets TruthBody::visible: at least a few square centimetres of the joint's own parts are seen
-/// within reach of the joint.
+/// Sets TruthBody::visible: true if at least 4 square centimetres of the joint's own parts are
+/// visible near the joint.
 void MarkVisibleJoints(LabelledFrame* frame);
 
 }  // namespace ossa::tools
