@@ -27,8 +27,8 @@ Bytes EncodePng(const Patch& patch) {
   return depth::EncodeColourPng(patch.rgba, {patch.width, patch.height}, 4);
 }
 
-/// What must be drawn over `before` (null: nothing is there yet) to get `frame`: the smallest
-/// rectangle around all that changed, at least a pixel.
+/// The smallest rectangle (at least one pixel) of `frame` that differs from `before` (null: all of
+/// it).
 Patch FindPatch(const Picture& frame, const Picture* before) {
   const auto changed = [&](int x, int y) {
     const size_t at = 3 * static_cast<size_t>(y * frame.width + x);
@@ -108,8 +108,8 @@ Bytes FrameControl(uint32_t sequence, const Patch& frame, int frame_ms) {
   Append(control, static_cast<uint32_t>(frame.y));
   Append(control, static_cast<uint32_t>(frame_ms), 2);
   Append(control, 1000, 2);  // the delay is frame_ms / 1000 s
-  control.push_back(0);      // leave the frame there
-  control.push_back(1);      // draw over what is there
+  control.push_back(0);      // dispose: keep the frame
+  control.push_back(1);      // blend: over the previous frame
   return control;
 }
 
@@ -134,7 +134,7 @@ void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture
              first.begin() + static_cast<std::ptrdiff_t>(kSignatureBytes + kHeaderChunkBytes));
   Bytes animation;
   Append(animation, static_cast<uint32_t>(frames.size()));
-  Append(animation, 0);  // for ever
+  Append(animation, 0);  // endless loop
   AppendChunk(file, "acTL", animation);
   uint32_t sequence = 0;
   for (size_t i = 0; i < frames.size(); ++i) {

@@ -16,18 +16,18 @@ struct Picture {
       : width(w), height(h), rgb(3 * static_cast<size_t>(w) * static_cast<size_t>(h), 255) {}
 };
 
-/// One PNG; the file appears when complete. Throws InputError when it cannot be written.
+/// Writes one PNG; the file appears when complete. Throws InputError if it cannot be written.
 void WritePicture(const std::filesystem::path& path, const Picture& picture);
 
 /// An animated PNG (APNG 1.0: browsers play it, other programs show its first frame). All frames
-/// must be of one size; plays for ever, `frame_ms` a frame.
+/// must be of one size; plays in an endless loop with `frame_ms` per frame.
 void WriteAnimation(const std::filesystem::path& path, const std::vector<Picture>& frames,
                     int frame_ms);
 
 /// `count` frames of the animation, evenly spaced, side by side.
 Picture Strip(const std::vector<Picture>& frames, int count);
 
-/// Pictures of one size in rows of `columns`.
+/// Pictures of equal size in a grid with `columns` columns.
 Picture Sheet(const std::vector<Picture>& pictures, int columns);
 
 }  // namespace ossa::tools

@@ -23,10 +23,10 @@ namespace {
 
 constexpr int kWidth_px = 290;
 constexpr int kHeight_px = 360;
-constexpr double kDistance_m = 6.0;  // far away, so that the perspective is mild
+constexpr double kDistance_m = 6.0;  // far, for little perspective
 constexpr double kViewHeight_m = 2.1;
 
-// Camera before the body at the height of its middle, looking along -z of the body's world.
+// A camera at the height of the body's centre that looks along -z of the world.
 Eigen::Isometry3d CameraFromWorld(double yaw_rad, double middle_m) {
   // Seen from the front, the body's left (+x) is at the image's right: camera x is to the left.
   Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
@@ -111,9 +111,10 @@ std::vector<Moment> Chosen(const std::vector<recon::MotionClip>& clips, size_t c
   return chosen;
 }
 
-/// Names to choose clips by, each once: "authored/golf" of authored/golf/00, 01, ...
+/// Names by which clips are chosen, without duplicates: "authored/golf" of authored/golf/00, 01,
+/// ...
 std::string NamesOf(const std::vector<recon::MotionClip>& clips) {
-  constexpr size_t kMost = 100;  // still one line that can be read
+  constexpr size_t kMost = 100;  // by eye: the line stays readable
   std::set<std::string> names;
   for (const recon::MotionClip& clip : clips) {
     names.insert(clip.name.substr(0, clip.name.rfind('/')));
@@ -125,8 +126,8 @@ std::string NamesOf(const std::vector<recon::MotionClip>& clips) {
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// Clips whose name holds one of the words; all of them without any. Throws InputError for a word
-/// that no name holds.
+/// Clips whose name contains one of the words; all clips if there are no words. Throws InputError
+/// for a word that no name contains.
 std::vector<recon::MotionClip> Named(std::vector<recon::MotionClip> clips,
                                      const std::vector<std::string>& words) {
   const auto holds = [](const recon::MotionClip& clip, const std::string& word) {

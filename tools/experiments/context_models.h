@@ -6,10 +6,10 @@
 
 namespace ossa::tools {
 
-/// What a study's tracker runs with: --model and --database, else what ossa ships. Tells
-/// context.warn of what does not belong together. Throws as ModelSet::Load does.
+/// Loads the models of a study's tracker: --model and --database, else the shipped ones. Calls
+/// context.warn for files that do not fit each other. Throws as ModelSet::Load() does.
 tracker::ModelSet LoadModels(const ExperimentContext& context, std::string_view method);
-/// The same of files that are named.
+/// The same with the given files.
 tracker::ModelSet LoadModels(const ExperimentContext& context, const tracker::ModelFiles& files,
                              std::string_view method);
 

@@ -43,8 +43,7 @@ std::string ComputeLoadedCodeKey() {
   return key;
 }
 
-// That the files and the folder that the user named are there: a study would else tell of it after
-// its first part, or do without.
+// Checks the files and the folder that the user named before the study begins.
 void RequireFiles(const ExperimentContext& context) {
   namespace fs = std::filesystem;
   if (!context.shared.empty() && !fs::is_directory(context.shared)) {
@@ -68,7 +67,7 @@ std::string ExperimentContext::Cached(const std::string& key,
   const auto folder = out / "cache";
   const auto path = folder / (ContentHash(key) + ".txt");
   if (std::filesystem::exists(path)) {
-    // The key stands first, so that a stranger's file or a damaged one is computed anew.
+    // The file begins with its key: a foreign or damaged file is computed again.
     const std::string text = ReadAll(path);
     const std::string begin = fmt::format("{}\n{}\n", key.size(), key);
     if (text.starts_with(begin)) return text.substr(begin.size());

@@ -13,7 +13,7 @@
 
 namespace ossa::tools {
 
-/// One table of a study, beside the paper's own numbers where there are any.
+/// One table of a study, with the paper's own numbers if there are any.
 struct Table {
   std::string title;
   std::vector<std::string> columns;
@@ -21,54 +21,54 @@ struct Table {
   std::string note;                            // what differs from the paper's data or setting
 };
 
-/// Markdown, columns padded so that it reads on a terminal as well.
+/// Markdown, with columns aligned for terminals.
 std::string ToMarkdown(const Table& table);
 
-/// The numbers and names a study may be given in a TOML file, flat `key = value` lines. Asking
-/// names the key and its default, so what a study can be told is what it asks for. A study asks for
-/// all of them before it computes anything (Experiment::read_parameters): one that is misspelt or
-/// out of range would else be told of after hours. Values that do not fit are InputErrors with
-/// their line.
+/// Parameters of a study from a TOML file of flat `key = value` lines. Reading a parameter declares
+/// its key and default. A study reads all of them before it computes anything
+/// (Experiment::read_parameters), so that wrong keys and values are reported at once. Wrong values
+/// throw InputError with their line.
 class Parameters {
  public:
   // A bound, so that products of counts fit 64 bits
   static constexpr int kMostInteger = 1'000'000'000;
-  // Of numbers without a bound.
+  // Default bounds of numbers.
   static constexpr double kMostNumber = std::numeric_limits<double>::max();
   static constexpr double kLeastNumber = -kMostNumber;
 
   Parameters() = default;
-  /// Throws InputError with file, line and column for what is no TOML, or not flat.
+  /// Throws InputError with file, line and column if the text is not flat TOML.
   static Parameters FromToml(const std::filesystem::path& path);
 
   double Number(const std::string& key, double usual, double least = kLeastNumber,
                 double most = kMostNumber);
-  /// Throws InputError for less than `least` or more than `most`.
+  /// Throws InputError for values below `least` or above `most`.
   int Integer(const std::string& key, int usual, int least = 0, int most = kMostInteger);
   bool Flag(const std::string& key, bool usual);
   std::string Text(const std::string& key, const std::string& usual);
   std::vector<std::string> Texts(const std::string& key, const std::vector<std::string>& usual);
   std::string OneOf(const std::string& key, const std::vector<std::string>& known,
                     const std::string& usual);
-  /// What recon::LoadMocap() takes: `authored`, `authored-floor`, or a file or folder that is
-  /// there; of Motions() one at least.
+  /// A source of recon::LoadMocap(): `authored`, `authored-floor`, or an existing file or folder;
+  /// Motions() needs at least one.
   std::string Motion(const std::string& key, const std::string& usual);
   std::vector<std::string> Motions(const std::string& key);  // authored by default
-  /// Some of `known`, all by default. Throws InputError for any other.
+  /// A subset of `known`, all by default. Throws InputError for other values.
   std::set<std::string> Some(const std::string& key, const std::vector<std::string>& known);
-  /// The same, `usual` by default, in the order in which they are given.
+  /// The same, `usual` by default, in the order of the file.
   std::vector<std::string> Some(const std::string& key, const std::vector<std::string>& known,
                                 const std::vector<std::string>& usual);
   std::vector<double> Numbers(const std::string& key, const std::vector<double>& usual,
                               double least = kLeastNumber, double most = kMostNumber);
-  /// The same, whole numbers, one at least.
+  /// A list of at least one whole number.
   std::vector<int> Integers(const std::string& key, const std::vector<int>& usual, int least,
                             int most = kMostInteger);
 
-  /// What was used, as TOML: written beside the results so that the study can be repeated.
+  /// All parameters with the values used, as TOML; written beside the results so that the study can
+  /// be repeated.
   std::string Used() const;
-  /// Throws InputError for a key of the file that was never read. From here on, reading a key that
-  /// was not read before throws std::logic_error.
+  /// Throws InputError if the file has a key that was never read. After this call, reading a new
+  /// key throws std::logic_error.
   void RequireAllUsed();
 
  private:
@@ -89,7 +89,7 @@ class Parameters {
   std::map<std::string, std::string> used_;
 };
 
-/// What an experiment is given.
+/// Input and services of an experiment.
 struct ExperimentContext {
   std::filesystem::path out;     // a folder that exists; figures and extra files go here
   std::filesystem::path shared;  // the folder of real recordings; "" when the user gave none
@@ -101,18 +101,17 @@ struct ExperimentContext {
   bool full = false;  // the study's long form; the short one takes a minute or two
   std::function<void(double done, double total, const std::string& note)> progress;
   std::function<bool()> interrupted;  // true: stop soon, by ThrowIfInterrupted()
-  // Called with one line for each model file that does not belong to the others, each time they are
-  // loaded and from any thread; may be empty.
+  // Called with one line for each model file that does not fit the others, whenever they are
+  // loaded, from any thread; may be empty.
   std::function<void(const std::string& line)> warn;
 
-  /// Throws Interruption when the user pressed Ctrl-C. Studies call it between steps of a second.
+  /// Throws Interruption after Ctrl-C. Studies call it about once a second.
   void ThrowIfInterrupted() const;
 
-  /// The result of a costly step: kept under out/cache by the content of `key`, so that a study
-  /// that was stopped takes up where it was. The key must name everything the result depends on:
-  /// parameters, seed, ComputeCodeKey() of what computes it, and ComputeFileKey() of input files.
-  /// `compute` returns any text, usually JSON. Throws Interruption before computing when the user
-  /// pressed Ctrl-C.
+  /// The result of an expensive step, cached under out/cache by `key`, so that an interrupted study
+  /// can resume. The key must contain everything that the result depends on: parameters, seed,
+  /// ComputeCodeKey(), and ComputeFileKey() of input files. `compute` returns any text, usually
+  /// JSON. Throws Interruption instead of computing after Ctrl-C.
   std::string Cached(const std::string& key, const std::function<std::string()>& compute) const;
 };
 
@@ -120,32 +119,31 @@ struct ExperimentContext {
 std::string ContentHash(const std::string& text);
 std::string ComputeFileKey(const std::filesystem::path& path);
 
-/// The code that made a number, for cache keys: this program and all ossa libraries that are linked
-/// into it dynamically. All, for whoever lists those that a step runs forgets one.
+/// Identifies the code for cache keys: this program and all ossa libraries linked into it
+/// dynamically.
 std::string ComputeCodeKey();
 
-/// The user stopped the study; what is cached stays.
+/// Thrown when the user stops the study; the cache is kept.
 struct Interruption {};
 
 struct Experiment {
   std::string_view name;
   std::string_view summary;
-  /// Reads every parameter of the study, also of parts that are not run, and computes
+  /// Reads every parameter of the study, also those of parts that are not run, and computes
   /// nothing.
   void (*read_parameters)(ExperimentContext&);
   std::vector<Table> (*run)(ExperimentContext&);
 };
 
-/// Every experiment, in the order of `ossa experiment --help`. Add yours in registry.cpp.
+/// All experiments, in the order of `ossa experiment --help`; defined in registry.cpp.
 std::span<const Experiment> Experiments();
 
-/// The experiment of that name, or of the name that it had before 0.2 (`rooms`); null: there is
-/// none.
+/// The experiment of this name, or of its name before 0.2 (`rooms`); null if there is none.
 const Experiment* FindExperiment(std::string_view name);
 
-/// Runs one: writes TABLE.md, parameters.toml and summary.json to context.out and returns the
-/// tables. Throws InputError for an unknown name or missing data, and, before anything is computed,
-/// for parameters that are unknown or wrong and for files of the context that are not there.
+/// Runs an experiment: writes TABLE.md, parameters.toml and summary.json to context.out and returns
+/// the tables. Throws InputError for an unknown name or missing data, and, before anything is
+/// computed, for unknown or wrong parameters and missing files of the context.
 std::vector<Table> RunExperiment(const std::string& name, ExperimentContext& context);
 
 }  // namespace ossa::tools

@@ -15,7 +15,7 @@ using recon::SkeletonFrame;
 constexpr double kShortestStep_s = 1e-3;  // no sensor is faster; bounds the work for absurd times
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
 
-// The step at a share of all steps, shortest first; a thirtieth of a second where there is none.
+// Quantile of the time steps; a thirtieth of a second if there are none.
 double StepAt(const std::vector<double>& time_s, double share) {
   std::vector<double> steps;
   for (size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
@@ -24,13 +24,12 @@ double StepAt(const std::vector<double>& time_s, double share) {
   return std::max(SelectRank(steps, rank), kShortestStep_s);
 }
 
-// Frames are due at start_s + k step_s, k = 1, 2, ..., while less than end_s.
+// Frames are expected at start_s + k step_s, k = 1, 2, ..., while less than end_s.
 struct Gap {
   double start_s, end_s, step_s;
 };
 
-// Where the truth is known next to a time that is due: at its own frame where one is near, else
-// between two.
+// Index of the truth near an expected time: at a frame if one is near, else between two.
 class KnownTruth {
  public:
   explicit KnownTruth(const FramesDue& due) : due_(due) {}
@@ -74,8 +73,7 @@ void AddDue(const KnownTruth& truth, const Gap& gap, std::vector<double>* absent
 // In order: before the result's first frame, between its frames, after its last.
 std::vector<Gap> FindGaps(const std::vector<double>& time_s, const FramesDue& due) {
   const double step_s = StepAt(time_s, 0.25);
-  // Where the frames of the truth are farther apart than those of the result, a step of that length
-  // is no gap.
+  // If the truth has a lower frame rate than the result, its time step is not a gap.
   const double shortest_gap_s = 1.5 * std::max(step_s, StepAt(due.truth_s, 0.5));
   std::vector<Gap> gaps;
   const double early_s = time_s.front() - due.truth_s.front();

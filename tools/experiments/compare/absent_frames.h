@@ -12,11 +12,11 @@ struct FramesDue {
   bool same_clock = true;       // truth and result began together: also the ends are due
 };
 
-/// Puts a frame without bodies wherever `frames` (times increase) has none though one was due: else
-/// a tracker that writes nothing where it is hard would seem to miss nothing. Frames are due as
-/// often as the result has them (the lower quartile of its steps: what is left out makes steps only
-/// longer) wherever the truth is known. A result that shares no time with the truth is left as it
-/// is: it is of something else.
+/// Inserts frames without bodies where `frames` (increasing times) lacks frames that were expected:
+/// otherwise a tracker that writes nothing for hard frames would seem to miss nothing. Frames are
+/// expected wherever the truth is known, at the result's frame interval (the lower quartile of its
+/// time steps, since gaps only lengthen steps). A result that shares no time with the truth stays
+/// unchanged.
 void AddAbsentFrames(const FramesDue& due, std::vector<recon::SkeletonFrame>* frames);
 
 }  // namespace ossa::tools

@@ -1,4 +1,4 @@
-// What may be wrong with a comparison as a whole, rather than with the result.
+// Detects errors of the comparison itself: other spaces or clocks, mirrored images.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 // Constants: by hand, where nothing else is said.
 
-// Errors of ordinary tracking are about as large in a mirror, or at another time, or larger; where
-// a person stands as a mirror would show them, they are alike.
+// For ordinary tracking, mirroring or shifting in time does not reduce the error; for a symmetric
+// posture the errors are equal.
 constexpr double kFarNearer = 0.5;  // ratio, no unit
 constexpr double kLeast_cm = 4.0;
 
@@ -21,7 +21,7 @@ bool IsFarNearer(const std::optional<double>& other_cm, const std::optional<doub
   return other_cm && error_cm && *error_cm >= kLeast_cm && *other_cm <= kFarNearer * *error_cm;
 }
 
-// Of one clip after the other: a folder may hold mirrored ones beside others.
+// For each clip: a folder may contain mirrored clips and others.
 std::string AdviseOnMirroring(const ComparedResult& result) {
   for (const PairedTracks& pair : result.pairs) {
     const auto error_cm = Measure(pair).parent_relative_error_cm;
@@ -35,7 +35,7 @@ std::string AdviseOnMirroring(const ComparedResult& result) {
   return "";
 }
 
-// The beginning of a pair: enough to tell its clocks by, and quickly searched.
+// The beginning of a pair, long enough to compare clocks and short enough to search quickly.
 PairedTracks SelectBeginning(const PairedTracks& pair) {
   constexpr double kEnough_s = 60.0;
   PairedTracks beginning;
@@ -63,11 +63,11 @@ PairedTracks AtOffset(const PairedTracks& pair, double offset_s) {
   return moved;
 }
 
-// Files that begin at 0 at the same rate have the same frame times, whenever each was begun.
+// Files that begin at 0 with the same rate have equal frame times, whenever they were started.
 std::string AdviseOnClock(const ComparedResult& result) {
   constexpr double kFarthest_s = 2.0;   // as PairOptions::max_offset_s
-  constexpr double kShortest_s = 0.15;  // what is less may be a filter's lag, which is an error
-  int searches = 5;  // for speed: of a folder of long recordings the first that are far off
+  constexpr double kShortest_s = 0.15;  // a smaller offset may be a filter's lag, which is an error
+  int searches = 5;                     // for speed: only the first clips with large errors
   for (const PairedTracks& whole : result.pairs) {
     if (!whole.same_clock || searches == 0) continue;
     const PairedTracks pair = SelectBeginning(whole);
@@ -88,7 +88,7 @@ std::string AdviseOnClock(const ComparedResult& result) {
 }
 
 std::string AdviseOnOrigin(const ComparedResult& result) {
-  constexpr double kApart_cm = 50.0;  // no sensor is off by as much on the whole
+  constexpr double kApart_cm = 50.0;  // no sensor has such a mean error
   const auto error_cm = result.mean.mean_joint_error_cm;
   if (!error_cm || *error_cm < kApart_cm) return "";
   return fmt::format(

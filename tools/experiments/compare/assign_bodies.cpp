@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kMostMoments = 200;  // evaluated, evenly spaced; for speed
 constexpr size_t kMostIds = 8;        // of a result, those in most frames; for speed
-constexpr double kMissed_m = 1.0;     // what a person without a body counts for, or with a far one
+constexpr double kMissed_m = 1.0;     // cost of a person without a body, or with a farther one
 
 double MeanDistance(const SparsePosture& a, const SparsePosture& b) {
   double sum = 0;
@@ -47,8 +47,7 @@ std::vector<int> FrequentIds(const std::vector<const Moment*>& moments) {
   return ids;
 }
 
-// The transform that aligns the body with the person; none where they have too few joints in
-// common.
+// The transform that aligns the body with the person; empty if they share too few joints.
 std::optional<Eigen::Matrix4d> TransformOnto(const std::vector<const Moment*>& moments,
                                              size_t person, int id) {
   CommonJoints common;

@@ -14,20 +14,19 @@ struct Moment {
   std::vector<int> ids;  // of the bodies, as in the result
 };
 
-/// Each true person takes the nearest body nobody nearer took, so that identities do not matter
-/// here (identity switches are the tracker's own table). One posture a person, without joints where
-/// none is left.
+/// Assigns bodies to true people, nearest pairs first, regardless of ids (identity switches are
+/// counted elsewhere). One posture per person, without joints if no body is left.
 std::vector<SparsePosture> AssignBodies(const Moment& moment);
 
-/// The rigid transform (no scale) to the truth's space of a result in another one: places alone do
-/// not tell there who of several people is whom. Of the transforms that bring one body's way onto
-/// one person's it is the one that leaves all bodies nearest to people; the identity where none
-/// leaves them nearer, and where there is no choice at any time.
+/// The rigid transform (no scale) from the result's space to the truth's, for several people.
+/// Candidates align the path of one body with that of one person; the best one brings all bodies
+/// nearest to people. The identity if no candidate is better, and if there is never more than one
+/// assignment.
 Eigen::Matrix4d FindCommonTransform(const std::vector<Moment>& moments);
 
 void MoveBodies(const Eigen::Matrix4d& transform, std::vector<Moment>& moments);
 
-/// Every joint's place.
+/// Positions of all joints.
 SparsePosture Moved(const Eigen::Matrix4d& transform, SparsePosture posture);
 
 }  // namespace ossa::tools

@@ -20,9 +20,8 @@ constexpr double kStep_s = 0.01;       // of the grid of times
 constexpr double kHalf_s = 0.05;       // speeds over a tenth of a second: above the sensor's jitter
 constexpr double kLongest_s = 2000.0;  // of a recording that is used; for memory
 
-// Speed of every joint at evenly spaced times, and where it is known. speed[joint][time]. Joints
-// are kept apart: their sum over a whole body is nearly constant in many motions and would say
-// little about time.
+// Speed of every joint at evenly spaced times, speed[joint][time], and where it is known. Joints
+// are kept separate: their sum over the body is nearly constant in many motions.
 struct Speeds {
   recon::JointArray<std::vector<double>> speed;
   recon::JointArray<std::vector<bool>> known;
@@ -53,18 +52,18 @@ struct Correlation {
 };
 
 // Fisher 1915: atanh(r) has a standard error of 1 / sqrt(n - 3). The largest correlation alone
-// shifts half a squat onto its other half, whose speeds are the same: a short overlap fits better
-// than the whole does.
+// would shift half a squat onto its other half, which has the same speeds: short overlaps fit
+// better than long ones.
 double Significance(double correlation, long shared) {
-  constexpr double kIndependent_s = 2 * kHalf_s;  // apart, speeds have no place in common
+  constexpr double kIndependent_s = 2 * kHalf_s;  // farther apart, speeds share no positions
   constexpr double kPerfect = 1 - 1e-9;           // a factor, by hand: atanh(1) is infinite
   const double samples = static_cast<double>(shared) * kStep_s / kIndependent_s;
-  // Of overlaps too short for the formula the correlation alone decides.
+  // For overlaps too short for the formula, the correlation decides.
   const double standard_errors = std::sqrt(std::max(1.0, samples - 3));
   return std::atanh(std::clamp(correlation, -kPerfect, kPerfect)) * standard_errors;
 }
 
-// Sums of Pearson's correlation.
+// Sums for Pearson's correlation.
 struct Sums {
   double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 
@@ -81,7 +80,7 @@ struct Sums {
   double VarianceY() const { return yy - y * y / n; }
 };
 
-// Of signals with means of their own: covariances and variances are summed over them.
+// For several signals with separate means: covariances and variances are summed.
 class PooledCorrelation {
  public:
   void Add(const Sums& sums) {
@@ -92,7 +91,7 @@ class PooledCorrelation {
     most_ = std::max(most_, static_cast<long>(sums.n));
   }
   long most() const { return most_; }  // samples of one signal
-  /// None of what does not change.
+  /// Empty for constant signals.
   std::optional<double> Value() const {
     const double variance = std::sqrt(variance_x_ * variance_y_);
     return variance > 0 ? std::optional(covariance_ / variance) : std::nullopt;
@@ -103,9 +102,9 @@ class PooledCorrelation {
   long most_ = 0;
 };
 
-// Pearson's correlation of a(t) with b(t - shift), pooled over the joints. Only times that both
-// know count, else the ends of a clip would pull the peak to zero. Fewer shared times than `fewest`
-// give no correlation: short overlaps fit anything.
+// Pearson's correlation of a(t) with b(t - shift), pooled over the joints. Only times known to both
+// count, else the ends of a clip would shift the peak to zero. Empty for fewer than `fewest` shared
+// times: short overlaps fit anything.
 Correlation Correlate(const Speeds& a, const Speeds& b, long shift, long fewest) {
   const auto count = static_cast<long>(a.speed[0].size());
   PooledCorrelation pooled;
@@ -124,7 +123,7 @@ Correlation Correlate(const Speeds& a, const Speeds& b, long shift, long fewest)
   return {*correlation, Significance(*correlation, pooled.most())};
 }
 
-// Postures of both at the same times, the result's moved onto the truth's.
+// Postures of both at the same times, the result rigidly aligned with the truth.
 struct Aligned {
   std::vector<SparsePosture> truths, results;
 };
@@ -146,8 +145,8 @@ Aligned AlignAt(const JointTrack& truth, const JointTrack& result, double shift_
   return aligned;
 }
 
-// How significantly the joints' positions correlate once the result is moved onto the truth. Speeds
-// alone are alike where a movement is repeated or runs back; where the joints then are is not.
+// Significance of the correlation of the joints' positions after rigid alignment. Speeds alone are
+// ambiguous for repeated and reversed movements.
 double PositionSignificance(const JointTrack& truth, const JointTrack& result, double shift_s) {
   const auto [truths, results] = AlignAt(truth, result, shift_s);
   PooledCorrelation pooled;
@@ -168,13 +167,13 @@ double PositionSignificance(const JointTrack& truth, const JointTrack& result, d
   return Significance(pooled.Value().value_or(0), shared);
 }
 
-// The most significant peaks of the speeds' correlation, the best first, of equal ones that of the
-// smallest offset. Where there is none the middle: someone who stands still gives no reason to move
-// the clock.
+// The most significant peaks of the correlation of the speeds, best first; of equal peaks the
+// smallest offset. Without a peak (a person at rest) the middle: offset zero.
 std::vector<size_t> FindPeaks(const std::vector<Correlation>& score) {
   constexpr double kLeastShare =
       0.1;  // of the best peak's significance, a ratio; by hand: 0.5 misses some
-  constexpr size_t kMostPeaks = 8;  // by hand: two seconds either way of a movement twice a second
+  constexpr size_t kMostPeaks =
+      8;  // by hand: two seconds either way for a movement repeated twice a second
   const size_t middle = score.size() / 2;
   const auto at = [&](size_t i) { return i < score.size() ? score[i].significance : -1e9; };
   const auto offset = [&](size_t i) { return i > middle ? i - middle : middle - i; };
@@ -193,7 +192,7 @@ std::vector<size_t> FindPeaks(const std::vector<Correlation>& score) {
   return peaks;
 }
 
-// The top of the parabola through a peak's correlation and those beside it.
+// The vertex of the parabola through the peak and its two neighbours.
 double RefinedPeak(const std::vector<Correlation>& score, size_t peak) {
   const auto place = static_cast<double>(peak);
   if (peak == 0 || peak + 1 >= score.size()) return place;
@@ -265,7 +264,7 @@ double FindClockOffset_s(const JointTrack& truth, const JointTrack& result, doub
                          const std::function<bool()>& stop) {
   const double starts_s = truth.time_s.front() - result.time_s.front();
   const ClockMatch together = MatchNear(truth, result, starts_s, max_offset_s, stop);
-  // Else equal clocks were among those that were looked at.
+  // Otherwise the search has covered equal clocks.
   const bool is_far = std::abs(starts_s) > max_offset_s;
   if (!is_far || !MayOverlap(truth, result, max_offset_s)) return together.offset_s;
   const ClockMatch equal = MatchClocks(truth, result, max_offset_s, stop);

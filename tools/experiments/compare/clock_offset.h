@@ -5,25 +5,25 @@
 
 namespace ossa::tools {
 
-/// The clock of a result against that of the truth.
+/// Offset of a result's clock from the truth's.
 struct ClockMatch {
   double offset_s = 0.0;  // to add to the times of the result
-  /// How significant the correlation of the joints' speeds is then: Fisher's z in standard errors;
-  /// 0: none.
+  /// Significance of the correlation of the joints' speeds at this offset: Fisher's z in standard
+  /// errors; 0: no correlation.
   double significance = 0.0;
 };
 
-/// The offset within `max_offset_s` at which result and truth agree: of those at which the joints'
-/// speeds correlate significantly, on a 10 ms grid, the one at which their positions, moved rigidly
-/// onto each other, do so most; refined by a parabola through the speeds' normalised
-/// cross-correlation.
-/// Throws Interruption (tools/experiments/experiment.h) once `stop`, asked at each offset, says so.
+/// The offset within `max_offset_s` at which result and truth agree best. Candidates are the peaks
+/// of the normalised cross-correlation of the joints' speeds on a 10 ms grid; among them the one
+/// wins whose positions, after rigid alignment, correlate most. It is refined by a parabola through
+/// the correlation of the speeds. Throws Interruption (tools/experiments/experiment.h) if `stop`,
+/// called at each offset, returns true.
 ClockMatch MatchClocks(const JointTrack& truth, const JointTrack& result, double max_offset_s,
                        const std::function<bool()>& stop = {});
 
-/// The offset between clocks of which nothing is known: both recordings began together, or the
-/// clocks are one, whichever the speeds say, within `max_offset_s`. Neither is empty. `stop` as of
-/// MatchClocks.
+/// The offset between unknown clocks: either both recordings began together, or they share a clock;
+/// the speeds decide, within `max_offset_s`. Neither recording may be empty. `stop` as in
+/// MatchClocks().
 double FindClockOffset_s(const JointTrack& truth, const JointTrack& result, double max_offset_s,
                          const std::function<bool()>& stop = {});
 

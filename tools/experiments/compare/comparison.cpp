@@ -23,7 +23,7 @@ void ThrowIfInterrupted(const CompareOptions& options) {
   if (options.stop && options.stop()) throw Interruption{};
 }
 
-/// `columns`: of files that hold truth and estimate side by side, what is wanted unless said.
+/// `columns`: the default choice for files that contain truth and estimate.
 std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& options,
                                  const char* columns, std::vector<std::string>& warnings) {
   auto reading = options.reading;
@@ -42,7 +42,7 @@ std::vector<SkeletonClip> Chosen(const std::string& path, const CompareOptions& 
   return clips;
 }
 
-// Nothing to compare is an error that says what was there, not a table of blanks.
+// If nothing can be compared, an error lists the clips found.
 [[noreturn]] void RefuseEmpty(const std::string& truth, const std::string& result,
                               const std::string& what) {
   throw InputError(fmt::format("{}: expected {} of {}, found none", result, what, truth));
@@ -59,8 +59,7 @@ void AddClip(ComparedResult& compared, const std::string& name, const SkeletonCl
   }
 }
 
-// Of results that are measured against nothing, a line. Names that differ in their letters' case
-// are others.
+// A line about clips without a counterpart. Names are case-sensitive.
 void WarnOfClipsWithoutTruth(const std::vector<SkeletonClip>& truth, const std::string& truth_name,
                              const std::vector<SkeletonClip>& results, const std::string& name,
                              std::vector<std::string>& warnings) {
@@ -103,7 +102,7 @@ ComparedResult CompareOne(const std::string& truth_name, const std::vector<Skele
   }
   if (!single) WarnOfClipsWithoutTruth(truth, truth_name, results, name, warnings);
   compared.mean = MeanOverClips(name, compared.clips);
-  // A result without people is compared, too: everything is missed.
+  // A result without people counts, too: every joint is missed.
   if (compared.clips.empty()) RefuseEmpty(truth_name, name, "frames at the times");
   compared.mean_joint_error_interval =
       BootstrapMean(Values(compared.clips, &ClipMetrics::mean_joint_error_cm), options.seed);
@@ -128,7 +127,7 @@ void TestQuantity(const std::vector<ComparedResult>& results, const std::string&
   std::vector<std::vector<ClipMetrics>> clips;
   for (const ComparedResult& result : results) clips.push_back(result.clips);
   const auto values = SharedValues(clips, member);
-  // Below, no signed-rank test can reach p = 0.05; by definition: 2^-4 = 0.0625
+  // With fewer pairs no signed-rank test can reach p = 0.05; by definition: 2^-4 = 0.0625
   constexpr size_t kFewestUnits = 5;
   const size_t units = values[0].size();
   if (units < kFewestUnits) return;

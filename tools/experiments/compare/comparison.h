@@ -17,11 +17,11 @@ struct CompareOptions {
   std::vector<std::string> skip;  // but none whose name holds one of these
   uint64_t seed = 1;              // of the bootstrap; by convention
   std::function<bool()> stop;     // asked before each clip; true: ends by throwing Interruption
-  /// Told how many of all clips, of all results, were compared; may be empty.
+  /// Called with the number of compared clips and of all clips over all results; may be empty.
   std::function<void(size_t done, size_t of)> progress;
 };
 
-/// One result against the truth, over all clips that both have.
+/// One result compared with the truth over all clips that both have.
 struct ComparedResult {
   std::string name;                 // as given
   std::string label;                // for tables: the last part of the name where it is unique
@@ -53,21 +53,21 @@ struct Comparison {
 };
 
 /// Reads and compares. Clips are matched by name; a single clip on both sides needs no equal name.
-/// Of files that hold truth and estimate side by side, each side takes its own unless said.
-/// Throws Interruption (tools/experiments/experiment.h) when it is to stop.
+/// From files that contain truth and estimate, each side takes its own by default. Throws
+/// Interruption (tools/experiments/experiment.h) if `stop` returns true.
 Comparison Compare(const std::string& truth, const std::vector<std::string>& results,
                    const CompareOptions& options);
 
-/// The object of `ossa compare --json` (docs/architecture.md), with confidence intervals, clips and
-/// tests beside the measures.
+/// The object of `ossa compare --json` (docs/architecture.md), plus confidence intervals, clips and
+/// tests.
 std::string ToJson(const Comparison& comparison);
 /// A suggestion if the errors show that the skeletons are in different coordinate systems or on
 /// different clocks, or that one is mirrored; else "".
 std::string MakeAdvice(const Comparison& comparison);
 /// Tables for a terminal.
 std::string ToText(const Comparison& comparison);
-/// One HTML file that needs nothing else: tables, error over time, cumulative curves, bars per
-/// joint, the worst frames drawn side by side.
+/// A self-contained HTML file: tables, error over time, cumulative curves, bars per joint, the
+/// worst frames.
 std::string ToHtml(const Comparison& comparison);
 
 }  // namespace ossa::tools

@@ -70,7 +70,7 @@ std::string WithInterval(const std::optional<double>& value,
   return fmt::format("{} [{:.2f}, {:.2f}]", Number(value), interval->low, interval->high);
 }
 
-// A row of the summary: its name and its cell of one result.
+// A row of the summary: its name and its cell for one result.
 struct SummaryRow {
   const char* name;
   std::string (*cell)(const ComparedResult&);

@@ -39,8 +39,8 @@ std::vector<SkeletonFrame> InOrder(std::vector<SkeletonFrame> frames) {
   return frames;
 }
 
-// Every person of a sequence as a track. Frames out of order are put in order; of frames with the
-// same time the first counts.
+// Every person of a sequence as a track. Frames are sorted by time; of frames with equal times the
+// first counts.
 std::map<int, JointTrack> CollectTracks(const SkeletonSequence& sequence) {
   std::map<int, JointTrack> tracks;
   for (const SkeletonFrame& frame : InOrder(sequence.frames)) {
@@ -54,7 +54,7 @@ std::map<int, JointTrack> CollectTracks(const SkeletonSequence& sequence) {
   return tracks;
 }
 
-// Without the joints that say not_tracked, wherever a method has put them.
+// Removes joints whose state is not_tracked, even if a method has placed them.
 std::vector<SkeletonFrame> RemoveUntracked(std::vector<SkeletonFrame> frames) {
   for (SkeletonFrame& frame : frames) {
     for (BodyRecord& body : frame.bodies) {
@@ -66,7 +66,7 @@ std::vector<SkeletonFrame> RemoveUntracked(std::vector<SkeletonFrame> frames) {
   return frames;
 }
 
-// When any of them is there.
+// True if any joint is present.
 std::vector<double> CollectTimes(const std::map<int, JointTrack>& tracks) {
   std::set<double> times;
   for (const auto& [id, track] : tracks) times.insert(track.time_s.begin(), track.time_s.end());
@@ -92,7 +92,7 @@ bool FrameTimesAgree(const JointTrack& truth, const JointTrack& result) {
     const bool before = next != truth.time_s.begin() && time_s - *(next - 1) <= tolerance_s;
     near += after || before ? 1 : 0;
   }
-  // A recording may run on a little longer than the truth; one in ten frames without a twin.
+  // A recording may be a little longer than the truth: one frame in ten may have no counterpart.
   return 10 * near >= 9 * result.time_s.size();
 }
 
@@ -115,7 +115,7 @@ void FindOffset(const JointTrack& truth, const JointTrack& result, const PairOpt
   }
 }
 
-// The person a file is about when it should be one: the one with the most frames.
+// The main person of a file: the one with the most frames.
 const JointTrack* MainTrack(const std::map<int, JointTrack>& tracks) {
   const JointTrack* main = nullptr;
   for (const auto& [id, track] : tracks) {
@@ -124,8 +124,8 @@ const JointTrack* MainTrack(const std::map<int, JointTrack>& tracks) {
   return main;
 }
 
-// The one person of a result in all its frames, also those in which nobody is seen: of several
-// bodies the one with the most frames, else the first, for a changed id is still the same person.
+// The only person of a result in all its frames, also those without a body. Of several bodies the
+// one with the most frames counts, else the first: an id may change.
 JointTrack TrackOfOnePerson(const SkeletonSequence& result) {
   std::map<int, size_t> frames_of;
   for (const SkeletonFrame& frame : result.frames) {
@@ -144,9 +144,9 @@ JointTrack TrackOfOnePerson(const SkeletonSequence& result) {
   return only;
 }
 
-// One clock for all. Who of several people is whom is told by places at the same time, so that
-// times are taken as they are unless something else is asked for; those seen most are then taken
-// for the same person.
+// One clock offset for all people. Several people are matched by their positions at equal times, so
+// clocks are not searched by default; if requested, the people with the most frames are assumed to
+// be the same.
 PairedTracks AlignClock(const std::map<int, JointTrack>& truths, const SkeletonSequence& result,
                         const PairOptions& options) {
   PairedTracks clock;
@@ -162,7 +162,7 @@ PairedTracks AlignClock(const std::map<int, JointTrack>& truths, const SkeletonS
   return clock;
 }
 
-// Frame by frame; of frames with the same time the first counts.
+// Of frames with equal times the first counts.
 std::vector<Moment> CollectMoments(const std::map<int, JointTrack>& truths,
                                    const std::vector<SkeletonFrame>& frames) {
   std::vector<Moment> moments;
@@ -229,7 +229,7 @@ std::vector<PairedTracks> PairUp(const SkeletonSequence& truth, const SkeletonSe
   std::vector<PairedTracks> pairs(truths.size(), clock);
   for (const Moment& moment : moments) AddMoment(moment, pairs);
   for (size_t t = 0; const auto& [id, track] : truths) {
-    // One person needs no name: methods that see more people than there are would give it others.
+    // A single person needs no matching of ids, which methods with extra bodies would confuse.
     if (truths.size() > 1) pairs[t].name = "body " + std::to_string(id);
     if (options.rigid) AlignRigidly(pairs[t]);
     ++t;

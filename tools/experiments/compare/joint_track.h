@@ -10,8 +10,8 @@
 
 namespace ossa::tools {
 
-/// Joints of one person at one time. What a sensor does not track is not there; what a method has
-/// placed unseen is (recon::HasPlace): it answers for it as for any other joint.
+/// Joints of one person at one time. Joints that a sensor does not track are absent; joints that a
+/// method has placed without seeing them (recon::HasPlace) count like any other joint.
 struct SparsePosture {
   recon::JointArray<Eigen::Vector3d> position_m;
   recon::JointArray<bool> present{};
@@ -28,11 +28,10 @@ struct JointTrack {
 
 SparsePosture ToSparsePosture(const recon::BodyRecord& body);
 
-/// The posture at a time, on the line between two frames, never across a gap of more than 0.2 s;
-/// none where there is none.
+/// The posture at a time, interpolated linearly between two frames at most 0.2 s apart; else empty.
 std::optional<SparsePosture> PostureAt(const JointTrack& track, double time_s);
 
-/// Truth and result of the same person at the same times, frame by frame.
+/// Truth and result of the same person at the same times.
 struct PairedTracks {
   std::string name;  // which of several true people; empty for one
   std::vector<double> time_s;
@@ -57,16 +56,16 @@ struct PairOptions {
   double max_offset_s = 2.0;
   bool rigid = false;       // Procrustes without scale over the whole clip, person by person
   bool found_only = false;  // of the result no joints that a method has placed unseen
-  /// Asked while clocks are searched, which takes minutes of long recordings: true ends it by
-  /// throwing Interruption (tools/experiments/experiment.h).
+  /// Called during the clock search, which takes minutes for long recordings; if it returns true,
+  /// Interruption (tools/experiments/experiment.h) is thrown.
   std::function<bool()> stop = {};
 };
 
-/// Brings a result onto the truth: people matched, clocks aligned, truth interpolated linearly at
-/// the result's times (never across a gap of more than 0.2 s), optionally one rigid transform a
-/// clip; who of several people is whom is then told in a common space (compare/assign_bodies.h).
-/// Several people in the truth give several pairs. Where the result has no frame though one was due
-/// (compare/absent_frames.h), it has a posture without joints.
+/// Aligns a result with the truth: matches people, aligns clocks, interpolates the truth linearly
+/// at the result's times (not across gaps of more than 0.2 s), and optionally applies one rigid
+/// transform per clip, after which several people are matched in a common space
+/// (compare/assign_bodies.h). Each person of the truth gives a pair. Frames that the result lacks
+/// (compare/absent_frames.h) become postures without joints.
 std::vector<PairedTracks> PairUp(const recon::SkeletonSequence& truth,
                                  const recon::SkeletonSequence& result,
                                  const PairOptions& options = {});

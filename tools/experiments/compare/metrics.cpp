@@ -152,8 +152,8 @@ void MeasureBones(const PairedTracks& pair, ClipMetrics& metrics) {
   metrics.bone_length_variation_percent = variation.Value();
 }
 
-// Area under precision over recall; hits and misses ranked by confidence, equal confidences taken
-// together. Every true joint counts as to be found.
+// Area under precision over recall; detections are ranked by confidence, equal confidences
+// together. Every true joint counts in recall.
 std::optional<double> AveragePrecision(const PairedTracks& pair, size_t joint) {
   std::vector<std::pair<double, bool>> found;
   int64_t wanted = 0;
@@ -178,7 +178,7 @@ std::optional<double> AveragePrecision(const PairedTracks& pair, size_t joint) {
   return area;
 }
 
-// Across x = 0: where the mirror stands does not matter to errors that are relative to a parent.
+// Mirrors at x = 0; the plane does not matter for errors relative to a parent.
 SparsePosture Mirrored(const SparsePosture& posture) {
   SparsePosture mirrored;
   for (size_t j = 0; j < recon::kJointCount; ++j) {

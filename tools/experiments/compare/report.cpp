@@ -90,7 +90,7 @@ const PairedTracks* PairNamed(const ComparedResult& result, const std::string& n
   return nullptr;
 }
 
-// Of many clips the one in which the first result is worst is shown.
+// The clip that is shown: the one in which the first result is worst.
 std::string ShownClip(const Comparison& comparison) {
   const auto& clips = comparison.results[0].clips;
   const auto worst =
@@ -100,8 +100,7 @@ std::string ShownClip(const Comparison& comparison) {
   return worst->name;
 }
 
-// At most so many points a line: a long recording is thinned by taking the largest of each group,
-// so that peaks stay.
+// Limits the points of a line: takes the largest of each group, so that peaks stay.
 Series Thinned(const Series& series) {
   constexpr size_t kMostPoints = 1500;
   const size_t group = series.x.size() / kMostPoints + 1;
@@ -232,7 +231,7 @@ struct WorstFrame {
   double error_cm;
 };
 
-// The worst frames, at least half a second apart: neighbours show the same failure.
+// The worst frames, at least half a second apart, because neighbours show the same failure.
 std::vector<WorstFrame> FindWorst(const ComparedResult& result) {
   constexpr size_t kShown = 4;
   constexpr double kApart_s = 0.5;

@@ -12,7 +12,7 @@ Eigen::Matrix4d RigidTransform(const Eigen::Matrix3Xd& from, const Eigen::Matrix
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  // A mirror image fits better than any rotation for some data; a body is never mirrored.
+  // For some data a reflection fits better than any rotation, but bodies are never mirrored.
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs.z() = -1;
   const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
   Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
@@ -30,7 +30,7 @@ void CommonJoints::Add(const SparsePosture& from, const SparsePosture& to) {
 }
 
 std::optional<Eigen::Matrix4d> CommonJoints::Align() const {
-  constexpr size_t kFewest = 3;  // points; by definition, fewer leave a turn open
+  constexpr size_t kFewest = 3;  // points; by definition, fewer leave a rotation undetermined
   if (from_m_.size() < kFewest) return std::nullopt;
   const auto points = static_cast<Eigen::Index>(from_m_.size());
   return RigidTransform(Eigen::Map<const Eigen::Matrix3Xd>(from_m_[0].data(), 3, points),

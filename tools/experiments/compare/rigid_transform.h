@@ -10,11 +10,11 @@ namespace ossa::tools {
 /// (Kabsch 1976, Umeyama 1991). Columns are points; at least one.
 Eigen::Matrix4d RigidTransform(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
 
-/// Joints that postures in two spaces have in common.
+/// Joints that postures in two spaces share.
 class CommonJoints {
  public:
   void Add(const SparsePosture& from, const SparsePosture& to);
-  /// Brings the former onto the latter; none of fewer than three joints.
+  /// Maps the first onto the second; empty for fewer than three joints.
   std::optional<Eigen::Matrix4d> Align() const;
 
  private:

@@ -6,11 +6,11 @@
 
 namespace ossa::tools {
 
-/// A skeleton sequence as JSONL and back, for the caches of studies.
+/// Converts a skeleton sequence to JSONL and back, for the caches of studies.
 std::string FormatSequence(const recon::SkeletonSequence& sequence);
 recon::SkeletonSequence ParseSequence(const std::string& text, const std::string& name);
 
-/// Between two sequences in one cached text; no JSONL holds it.
+/// Separator of sequences in a cached text; it never occurs in JSONL.
 inline constexpr std::string_view kSequenceEnd = "---\n";
 
 }  // namespace ossa::tools

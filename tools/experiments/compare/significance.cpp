@@ -129,7 +129,7 @@ double DallalWilkinsonTail(double d, double n) {
                   0.974598 / std::sqrt(n) + 1.67997 / n);
 }
 
-// The rest of the law by its quantiles: of (sqrt(n) - 0.01 + 0.85 / sqrt(n)) D, the modification by
+// For larger probabilities, quantiles of (sqrt(n) - 0.01 + 0.85 / sqrt(n)) D, the modification with
 // which Stephens 1974 ("EDF statistics for goodness of fit and some comparisons", Journal of the
 // American Statistical Association 69(347)) makes D nearly the same for every n. Simulated by
 // tests/golden/statistics.py (lilliefors_quantiles), with n = 20; linear between.

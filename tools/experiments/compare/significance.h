@@ -11,9 +11,9 @@ struct Interval {
   double high = 0;
 };
 
-/// Percentile bootstrap of the mean (Efron 1979): values drawn with replacement `resamples` times.
-/// One value per independent unit (a clip, a subject), never per frame: frames of a clip resemble
-/// each other and would make the interval far too small. Empty for fewer than two values.
+/// Percentile bootstrap of the mean (Efron 1979) with `resamples` resamples. `values` has one entry
+/// per independent unit (a clip, a subject), never per frame: frames of a clip are correlated and
+/// would make the interval far too small. Empty for fewer than two values.
 std::optional<Interval> BootstrapMean(std::span<const double> values, uint64_t seed,
                                       int resamples = 2000, double level = 0.95);
 
@@ -22,8 +22,8 @@ struct TestResult {
   double p = 1;
 };
 
-/// Two-sided paired tests of a against b, unit by unit; sizes are equal. Empty where the units are
-/// too few to say anything.
+/// Two-sided paired tests of a against b, one entry per unit, equal sizes. Empty if there are too
+/// few units.
 
 /// Wilcoxon's signed rank test; statistic = the smaller rank sum. Exact up to 50 pairs without ties
 /// or zeros, else the normal approximation with the correction for ties (zeros left out).
@@ -36,13 +36,12 @@ std::optional<TestResult> PairedT(std::span<const double> a, std::span<const dou
 std::optional<TestResult> Friedman(const std::vector<std::vector<double>>& values);
 /// One-way repeated-measures analysis of variance; statistic = F(k - 1, (k - 1)(n - 1)).
 std::optional<TestResult> RepeatedAnova(const std::vector<std::vector<double>>& values);
-/// Lilliefors' test of normality: Kolmogorov-Smirnov's distance from the normal law with the
-/// values' own mean and deviation, which lies nearer to them than any law given beforehand would,
-/// so that p is not Kolmogorov's. Empty for fewer than five values. Plantard 2016 tests normality
-/// to choose between the tests above.
+/// Lilliefors' test of normality: Kolmogorov-Smirnov distance from the normal distribution with the
+/// values' own mean and standard deviation; because these are fitted, p is not Kolmogorov's. Empty
+/// for fewer than five values. Plantard 2016 tests normality to choose between the tests above.
 std::optional<TestResult> Lilliefors(std::span<const double> values);
 
-/// Upper tails, for the tests and for checking them.
+/// Upper tail probabilities.
 double ChiSquareTail(double x, double degrees);
 double FTail(double f, double degrees_1, double degrees_2);
 double StudentTail(double t, double degrees);  // two-sided

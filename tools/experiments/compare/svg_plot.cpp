@@ -20,9 +20,9 @@ constexpr double kHeight = 320;
 constexpr double kLeft = 56;
 constexpr double kRight = 12;
 constexpr double kTop = 12;
-constexpr double kBottom = 66;  // room for the slanted names under bars
+constexpr double kBottom = 66;  // height of the slanted names under bars
 
-// The round number (1, 2 or 5 times a power of ten) that divides a range in about five.
+// The round step (1, 2 or 5 times a power of ten) that divides a range into about five parts.
 double RoundStep(double range) {
   const double rough = std::max(range, 1e-9) / 5;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -123,7 +123,7 @@ Frame FrameOf(const std::vector<Series>& all, const Axes& axes) {
   return frame;
 }
 
-// Names of files may hold bytes that are no UTF-8: pages are of nothing else.
+// File names may contain invalid UTF-8, which pages must not.
 std::string Printable(std::string_view text) {
   std::string lines;
   while (true) {
@@ -161,7 +161,7 @@ std::string Escaped(const std::string& text) {
 }
 
 std::string SeriesColour(size_t index) {
-  // Okabe and Ito's colours: told apart by colour-blind readers too.
+  // Okabe and Ito's colours, for colour-blind readers too.
   static constexpr std::array kColours = {"#D55E00", "#0072B2", "#009E73", "#CC79A7",
                                           "#E69F00", "#56B4E9", "#8C6D31"};
   return kColours[index % kColours.size()];

@@ -5,10 +5,10 @@
 
 namespace ossa::tools {
 
-/// Text made safe for HTML and SVG in UTF-8, its lines as they are.
+/// Escapes text for HTML and SVG in UTF-8; line breaks stay.
 std::string Escaped(const std::string& text);
 
-/// A colour that tells series apart, by index; the truth is drawn in kTruthColour.
+/// Colour of a series by index; the truth is drawn in kTruthColour.
 std::string SeriesColour(size_t index);
 inline constexpr const char* kTruthColour = "#444444";
 

@@ -1,5 +1,5 @@
-// `ossa experiment fit`: what the surface fit does to the tracker's final joints on real stills,
-// and what each of its terms brings.
+// `ossa experiment fit`: the effect of the surface fit and of each of its terms on the tracker's
+// final joints on real stills.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using recon::SurfaceFitOptions;
 
 struct Variant {
   std::string name;
-  std::optional<SurfaceFitOptions> options;  // none: without a fit
+  std::optional<SurfaceFitOptions> options;  // empty: no fit
 };
 
 template <typename Change>
@@ -28,7 +28,8 @@ Variant With(const std::string& name, const Change& change) {
   return {name, options};
 }
 
-// By hand, factors: of what is switched off so little is left that the system can be solved.
+// By hand, factors: terms that are switched off keep a tiny weight so that the system stays
+// solvable.
 constexpr double kHardly = 0.01;
 
 std::vector<Variant> Variants() {
@@ -55,7 +56,7 @@ std::vector<Variant> Variants() {
   };
 }
 
-/// What fits say of the stills of a set.
+/// Results of the fits of a set's stills.
 struct FitFigures {
   std::vector<double> explained, residual_m, ms;
   void Add(const StillResult& result) {
@@ -99,7 +100,7 @@ void AddRow(const Variant& variant, const RealSet& set, const std::vector<StillR
                         FormatMedian(figures.ms, 1, "{:.2f}")});
 }
 
-constexpr int kMostPerHeight = 20;  // by hand: a night
+constexpr int kMostPerHeight = 20;  // by hand: takes a night
 
 std::set<std::string> ReadParts(Parameters& parameters) {
   return parameters.Some("parts", {"terms", "people", "starts", "shapes"});

@@ -19,10 +19,10 @@ void AddStature(const std::string& name, const std::string& height,
                 const std::vector<const Outcome*>& outcomes, Table& table) {
   std::vector<double> off_cm, absolute_cm, sigma_cm, normalised;
   for (const Outcome* outcome : outcomes) {
-    if (!outcome->said) continue;
-    off_cm.push_back(100.0 * (outcome->said->stature_m - outcome->stature_m));
+    if (!outcome->estimated) continue;
+    off_cm.push_back(100.0 * (outcome->estimated->stature_m - outcome->stature_m));
     absolute_cm.push_back(std::abs(off_cm.back()));
-    sigma_cm.push_back(100.0 * outcome->said->sigma_m);
+    sigma_cm.push_back(100.0 * outcome->estimated->sigma_m);
     normalised.push_back(off_cm.back() / sigma_cm.back());
   }
   if (off_cm.empty()) return;
@@ -101,11 +101,11 @@ std::vector<Table> FitPeople(ExperimentContext& context) {
   const tracker::TrackerOptions options = TrackerOptionsOf(context);
   Table stature{.title = "Stature of rendered people after 3 s",
                 .columns = {"what", "stature", "people", "off, median, cm", "mean, cm",
-                            "said sigma, cm", "within 1 sigma, %", "within 2 sigma, %"},
+                            "estimated sigma, cm", "within 1 sigma, %", "within 2 sigma, %"},
                 .rows = {},
                 .note = "Right error bars hold 68 and 95 %."};
   Table joints{.title = "Fitted joints of rendered people and their error bars",
-               .columns = {"what", "joints", "off, median, cm", "said, median, cm",
+               .columns = {"what", "joints", "off, median, cm", "estimated, median, cm",
                            "chi-square, median", "within 68 %, %", "within 95 %, %"},
                .rows = {},
                .note =

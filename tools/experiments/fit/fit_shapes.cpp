@@ -9,7 +9,7 @@
 namespace ossa::tools {
 namespace {
 
-// The shape of the person with another stature, known with the same certainty.
+// The person's shape scaled to another stature, with the same covariance.
 recon::PersonShape ShiftStature(const recon::PersonShape& person, double by_m,
                                 const recon::BodySurface& surface) {
   const recon::ShapeVector& stature = surface.stature_by_shape_m;
@@ -22,7 +22,7 @@ recon::PersonShape ShiftStature(const recon::PersonShape& person, double by_m,
 
 struct Wrong {
   std::string name;
-  std::optional<double> by_m;  // none: no file
+  std::optional<double> by_m;  // empty: no person file
 };
 
 void AddRow(const Wrong& wrong, const std::vector<Outcome>& outcomes, Table& table) {
@@ -30,10 +30,10 @@ void AddRow(const Wrong& wrong, const std::vector<Outcome>& outcomes, Table& tab
   for (const Outcome& outcome : outcomes) {
     for (const double error_m : outcome.fitted_m) fitted_cm.push_back(100.0 * error_m);
     for (const double error_m : outcome.final_m) final_cm.push_back(100.0 * error_m);
-    if (!outcome.said) continue;
-    const double off_m = outcome.said->stature_m - outcome.stature_m;
+    if (!outcome.estimated) continue;
+    const double off_m = outcome.estimated->stature_m - outcome.stature_m;
     stature_cm.push_back(100.0 * std::abs(off_m));
-    normalised.push_back(off_m / outcome.said->sigma_m);
+    normalised.push_back(off_m / outcome.estimated->sigma_m);
   }
   table.rows.push_back({wrong.name, std::to_string(stature_cm.size()),
                         fmt::format("{:.1f}", Middle(fitted_cm)),
@@ -54,7 +54,7 @@ std::vector<Table> FitWrongShapes(ExperimentContext& context) {
               .note =
                   "Medians; 3 s each. The file is what 3 s of the same motion told, moved along "
                   "stature."};
-  // By hand: as people of one family differ, and a child from a grown person.
+  // By hand: differences within a family, and between a child and an adult.
   const std::vector<Wrong> wrongs = {{"nobody", {}},          {"themselves", 0.0},
                                      {"5 cm taller", 0.05},   {"10 cm taller", 0.1},
                                      {"10 cm shorter", -0.1}, {"30 cm taller", 0.3}};

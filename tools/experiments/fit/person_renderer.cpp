@@ -14,11 +14,11 @@ namespace {
 
 // Constants: of what is rendered, by hand.
 
-constexpr double kLeast_m = 1.1, kStep_m = 0.1;  // 1.1 to 2.1 m, as the question is asked
+constexpr double kLeast_m = 1.1, kStep_m = 0.1;  // 1.1 to 2.1 m, by definition of the study
 constexpr size_t kHeights = 11;
-constexpr uint64_t kDraws = 1500;  // of shapes, among which each height has some
+constexpr uint64_t kDraws = 1500;  // shapes, enough for each height
 
-// Of the drawn people those nearest to each height.
+// The drawn people nearest to each height.
 std::vector<RenderedPerson> ChoosePeople(const recon::BodyModel& model, Split split, int per_height,
                                          uint64_t seed) {
   std::vector<RenderedPerson> drawn, chosen;

@@ -11,26 +11,27 @@
 
 namespace ossa::tools {
 
-/// Somebody who is rendered: of the shapes kept for tests, from 1.1 to 2.1 m tall.
+/// A rendered person, 1.1 to 2.1 m tall.
 struct RenderedPerson {
-  double target_m = 0.0;  // of the row in tables
+  double target_m = 0.0;  // stature of the table row, metres
   recon::BodyShape shape;
   double stature_m = 0.0;  // barefoot, without hair
   uint64_t seed = 0;       // of clothes, place and noise
 };
 
-/// Renders people of known stature in motion before a simulated Kinect v1 in an empty room.
+/// Renders sequences of people of known stature in an empty room, as a Kinect v1 sees them.
 class PersonRenderer {
  public:
-  static constexpr int kFrames = 90;  // by definition of the question that is asked: 3 s at 30 Hz
+  static constexpr int kFrames = 90;  // by definition of the study: 3 s at 30 Hz
 
-  /// `per_height` people about 1.1, 1.2, ... 2.1 m tall. Throws InputError where the body was not
-  /// fetched.
+  /// `per_height` people of each of about 1.1, 1.2, ... 2.1 m. `train_shapes`: of the shapes for
+  /// training, else of those for tests. Throws InputError if the body model is missing.
   PersonRenderer(ExperimentContext& context, int per_height, bool train_shapes);
   ~PersonRenderer();
 
   const std::vector<RenderedPerson>& people() const { return people_; }
-  /// The person's frames with the true joints and parts; `loose`: in a coat, a skirt or what hangs.
+  /// The person's frames with true joints and parts. `loose`: in a coat, a skirt or other loose
+  /// clothes.
   std::vector<LabelledFrame> RenderClip(const RenderedPerson& person, bool loose) const;
 
  private:
@@ -39,18 +40,19 @@ class PersonRenderer {
   std::vector<RenderedPerson> people_;
 };
 
-/// How many people are rendered of each height, and whether of the shapes kept for training.
+/// Number of people of each height, and whether they have the shapes kept for training.
 struct FitSettings {
   int people_per_height = 0, start_people_per_height = 0, shape_people_per_height = 0;
   bool train_shapes = false;
 };
 FitSettings ReadFitSettings(Parameters& parameters);
 
-/// Stature and joints with their error bars, as people are and in loose clothes.
+/// Errors and estimated standard deviations of stature and joints, in ordinary and in loose
+/// clothes.
 std::vector<Table> FitPeople(ExperimentContext& context);
-/// How far off joints may be to begin with.
+/// Basin of convergence: errors of the initial joints from which the fit converges.
 std::vector<Table> FitStarts(ExperimentContext& context);
-/// People who are taken for others, of other shapes.
+/// Effect of fitting with the shape of another person.
 std::vector<Table> FitWrongShapes(ExperimentContext& context);
 
 }  // namespace ossa::tools

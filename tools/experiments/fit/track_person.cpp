@@ -46,7 +46,7 @@ double MeanError_m(const recon::Posture& a, const recon::Posture& truth) {
 }
 
 const tracker::Body* PersonIn(const tracker::BodyFrame& seen, const recon::Posture& truth) {
-  constexpr double kReach_m = 0.6;  // by hand: farther off is somebody else
+  constexpr double kReach_m = 0.6;  // by hand: farther bodies are other people
   for (const tracker::Body& body : seen.bodies) {
     if (body.fit && MeanError_m(tracker::ToPosture(body), truth) < kReach_m) return &body;
   }
@@ -64,7 +64,7 @@ Outcome TrackPerson(const RenderedPerson& person, const std::vector<LabelledFram
     const tracker::Body* body = PersonIn(seen, frame.bodies[0].joints_m);
     if (body != nullptr) AddFit(*body, frame.bodies[0].joints_m, outcome);
   }
-  if (outcome.shape) outcome.said = MeasureStature(*outcome.shape, *options.models->surface);
+  if (outcome.shape) outcome.estimated = MeasureStature(*outcome.shape, *options.models->surface);
   return outcome;
 }
 

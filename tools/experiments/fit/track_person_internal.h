@@ -13,24 +13,24 @@ namespace ossa::tools {
 struct Outcome {
   double target_m = 0.0, stature_m = 0.0;
   std::optional<recon::PersonShape> shape;  // after the last frame
-  std::optional<recon::Stature> said;       // by that
-  // Of fitted joints, one of each frame: squared distance in standard deviations (3 in the mean
-  // where covariances are right), what they say that they may be off by, and what they are.
+  std::optional<recon::Stature> estimated;  // of that shape
+  // Fitted joints, one entry per frame: squared Mahalanobis distance from the truth (3 on average
+  // if the covariances are right), estimated standard deviation, and error.
   recon::JointArray<std::vector<double>> normalised2, sigma_m, error_m;
   std::vector<double> fitted_m, final_m;  // mean error of a frame's joints
 };
 
-/// The shipped models, or those of the command line.
+/// Options with the models of the command line, else the shipped ones.
 tracker::TrackerOptions TrackerOptionsOf(const ExperimentContext& context);
 Outcome TrackPerson(const RenderedPerson& person, const std::vector<LabelledFrame>& frames,
                     const tracker::TrackerOptions& options);
 
-/// The fitted body at these joints; null where there is none.
+/// The fitted body within 0.6 m of the true joints (mean distance); null if there is none.
 const tracker::Body* PersonIn(const tracker::BodyFrame& seen, const recon::Posture& truth);
 double MeanError_m(const recon::Posture& a, const recon::Posture& truth);
 
-/// Of several frames or people: the median and the mean, NaN of none; how many are within a bound,
-/// as a text in percent.
+/// Median and mean (NaN if `values` is empty), and the percentage of values within a bound, as
+/// text.
 double Middle(const std::vector<double>& values);
 double Mean(const std::vector<double>& values);
 std::string Share(const std::vector<double>& values, double within);

@@ -71,7 +71,7 @@ void EvaluateRow(const FirstFrameInputs& inputs, ExperimentContext& context, Row
   for (int i = 0; i < inputs.images; ++i) {
     context.ThrowIfInterrupted();
     const LabelledFrame frame = Uncropped(maker.Make(i), MakeCamera(options));
-    tracker.Reset();  // each image is a first one
+    tracker.Reset();  // each image is a first frame
     AddImage(frame, tracker.Track(frame.depth), row);
   }
 }

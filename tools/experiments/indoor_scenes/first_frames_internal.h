@@ -7,8 +7,7 @@
 
 namespace ossa::tools {
 
-// One person in any clothes, in an image of their own: with which occluder, before which
-// background.
+// Images of one person in any clothes, with a given occluder and background.
 
 struct FirstFrameKind {
   std::string_view name;  // of the table

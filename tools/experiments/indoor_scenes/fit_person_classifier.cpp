@@ -40,7 +40,7 @@ std::optional<bool> IsPerson(const std::vector<int32_t>& pixels, const LabelledF
   return std::nullopt;
 }
 
-// Weights that are fitted: of what camera and forest, and into which file and arrays.
+// A set of fitted weights: its camera, forest, file and arrays.
 struct WeightSet {
   bool from_above;
   const char* forest;
@@ -101,7 +101,7 @@ class Gatherer {
       AddScenario(scenario, inputs, ++seed, examples);
   }
 
-  // Head and shoulders alone are rare among the others.
+  // The other scenes rarely show head and shoulders alone.
   void AddSofaScenes(const IndoorSceneInputs& inputs, uint64_t seed,
                      std::vector<Example>& examples) {
     constexpr int kSeats = 10;
@@ -116,7 +116,7 @@ class Gatherer {
       CollectExamples(renderer.RenderFrame(f), examples);
   }
 
-  // Rooms of every sort; one in four without shelves and plants.
+  // Random rooms; one in four without shelves and plants.
   void UnderCeilings(uint64_t seed, std::vector<Example>& examples) {
     constexpr int kRooms = 8;
     for (int i = 0; i < kRooms; ++i) {
@@ -163,7 +163,7 @@ class Gatherer {
   std::vector<recon::RigPose> poses_, floor_poses_;
 };
 
-// Kept in the study's cache, one line an example: fitting again with another prior takes seconds.
+// Cached, one line per example: fitting again with another prior takes seconds.
 std::vector<Example> Examples(ExperimentContext& context, const WeightSet& set, Split split,
                               const std::string& mocap, int performances, uint64_t seed) {
   const auto compute = [&] {

@@ -24,8 +24,8 @@ using Eigen::Vector3f;
 constexpr double kHalfView = 0.45;  // x / z up to which people stay wholly in view; ratio of a
                                     // Kinect v1's half width to its distance (0.55), less a margin
 
-// The part of a clip with the longest path within `frames` frames, heading removed: people who
-// cross a room must walk.
+// The part of a clip with the longest path within `frames` frames, heading removed, for people who
+// cross a room.
 std::vector<recon::RigPose> WalkPoses(const std::vector<recon::MotionClip>& clips, int64_t frames,
                                       Random& random) {
   constexpr double kFarEnough_m = 1.8;
@@ -46,7 +46,7 @@ std::vector<recon::RigPose> WalkPoses(const std::vector<recon::MotionClip>& clip
   if (farthest == nullptr) return {};
   const auto& clip = walks.empty() ? *farthest : *walks[random.Index(walks.size())];
   const Vector3d step = way(clip);
-  // The way of the walk becomes +z, which is where a person at rest faces.
+  // The walking direction becomes +z, the direction that a person at rest faces.
   const double turn_rad = step.norm() > 0.3 ? -std::atan2(step.x(), step.z()) : 0.0;
   std::vector<recon::RigPose> poses(
       clip.frames.begin(),
@@ -79,7 +79,8 @@ std::vector<IndoorScenario> IndoorScenarios() {
     all.push_back({fmt::format("{} crossing", people), people, Furnishing::kFurnished, true});
   }
   all.push_back({.name = "one, still at 3 m", .still = true});
-  all.push_back({"one, sofa before", 1, Furnishing::kSofaBefore});  // last: the others keep seeds
+  all.push_back({"one, sofa before", 1,
+                 Furnishing::kSofaBefore});  // last, so that the others keep their seeds
   return all;
 }
 
@@ -114,7 +115,7 @@ void IndoorSceneRenderer::PlacePeople(Random& random) {
   }
 }
 
-// In columns side by side, every other one nearer.
+// People side by side, every other one nearer.
 IndoorSceneRenderer::Way IndoorSceneRenderer::Staying(int person, Random& random) const {
   Way way;
   way.poses = SequencePoses(inputs_.clips, inputs_.frames, random.Bits());
@@ -128,7 +129,7 @@ IndoorSceneRenderer::Way IndoorSceneRenderer::Staying(int person, Random& random
   return way;
 }
 
-// On lanes at different depths, from left to right and from right to left in turn.
+// People on lanes at different depths, walking left and right alternately.
 IndoorSceneRenderer::Way IndoorSceneRenderer::Crossing(int person, Random& random) const {
   constexpr double kLane_m = 0.85;
   Way way;
@@ -142,8 +143,8 @@ IndoorSceneRenderer::Way IndoorSceneRenderer::Crossing(int person, Random& rando
   return way;
 }
 
-// A clip shorter than the performance is played to and fro, a walk more slowly. Where the walk
-// itself is shorter or longer than its lane, the feet slide a little.
+// A clip shorter than the sequence is played forwards and backwards, a walk more slowly. If the
+// walk is shorter or longer than its lane, the feet slide a little.
 recon::RigPose IndoorSceneRenderer::PoseAt(const Way& way, double root_scale, int64_t index) const {
   const auto count = std::ssize(way.poses);
   const double share =
@@ -173,8 +174,7 @@ void IndoorSceneRenderer::Stand(const depth::TriangleMesh& mesh, const Vector3d&
   renderer_.AddMesh(depth::Moved(mesh, place), false);
 }
 
-// Somebody behind a back rest, or before a sofa that shows the sensor its back: from the hips down,
-// or more, they are hidden.
+// A sofa or an armchair between person and sensor that hides at least the legs.
 void IndoorSceneRenderer::StandSofaBefore(const Vector3d& person_m, Random& random) {
   constexpr double kDepth_m = 0.6, kBack_m = 0.2;
   const auto width_m = static_cast<float>(random.Uniform(0.5, 1.6));
@@ -209,7 +209,7 @@ void IndoorSceneRenderer::Furnish(Random& random) {
   }
   const size_t things = 2 + random.Index(4);
   for (size_t i = 0; i < things; ++i) {
-    // Along the wall behind, mostly at the sides, where nobody walks.
+    // Furniture along the rear wall, mostly at the sides, where nobody walks.
     const double side = random.Chance(0.5) ? 1 : -1;
     const double x_m = side * random.Uniform(scenario_.crossing ? 0.2 : 0.5, 0.5 * width_m);
     const double z_m = -behind_m + random.Uniform(0.2, scenario_.crossing ? 0.4 : 0.9);

@@ -109,8 +109,8 @@ void AddRow(const std::string& name, const IndoorScore& s, Table& where, Table& 
                          Cell(Measure(s.raw_seen).map_10cm, 100, 1)});
 }
 
-// Root of the mean squared distance of a still person's joints from their means, millimetres: of
-// the joints that are there in nearly every frame. The first second is the filter's.
+// RMS distance of a resting person's joints from their means, millimetres, over joints present in
+// nearly every frame. The first second is skipped: filters settle.
 std::optional<double> Jitter_mm(const PairedTracks& track) {
   constexpr size_t kSettled = 30;  // frames, by hand: a second
   double square = 0, count = 0;

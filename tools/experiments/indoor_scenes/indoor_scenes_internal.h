@@ -82,11 +82,11 @@ class IndoorSceneRenderer {
   depth::Renderer renderer_;
 };
 
-/// Everything counted over the frames of one scenario.
+/// Counts and errors over the frames of one scenario.
 struct IndoorScore {
   int64_t frames = 0, in_view = 0, found = 0;  // people, frame by frame
-  int64_t cut = 0;                             // extra bodies on people who already have one
-  int64_t invented = 0;                        // bodies that are no people
+  int64_t cut = 0;                             // extra bodies on people who already have a body
+  int64_t invented = 0;                        // bodies that are not people
   int64_t switches = 0;                        // a person's id differs from when last found
   double iou = 0;                              // summed over found
   PairedTracks raw, final;

@@ -9,10 +9,10 @@ namespace {
 
 // Constants: by hand; do not change them, so that results stay comparable.
 
-// With less of a person visible, neither finding nor missing them counts.
+// If less of a person is visible, neither finding nor missing them counts.
 constexpr double kInView_m2 = 0.10;
 constexpr int kInViewJoints = 6;
-constexpr double kLeastIou = 0.25;  // of a body that is said to be a person's; a ratio of areas
+constexpr double kLeastIou = 0.25;  // of a body and its person; a ratio of areas
 
 struct Overlaps {
   std::vector<std::vector<double>> common;  // pixels of each body on each person
@@ -48,7 +48,7 @@ Overlaps CountOverlaps(const LabelledFrame& truth, const tracker::BodyFrame& ans
   return o;
 }
 
-// Best overlap first: which body is whose, -1 for none.
+// Assigns a body to each person, best overlap first; -1: none.
 std::vector<int> Match(const Overlaps& o) {
   std::vector<int> body_of(o.person.size(), -1);
   std::vector<uint8_t> taken(o.body.size(), 0);

@@ -23,8 +23,8 @@ struct PersonClassifierSettings {
 };
 PersonClassifierSettings ReadPersonClassifierSettings(ExperimentContext& context);
 
-/// Share of a region that belongs to the person it shows most of, and share of that person in the
-/// region: [0, 1].
+/// Share of the region's pixels that belong to its main person, and share of that person's pixels
+/// in the region: [0, 1].
 struct PixelShares {
   double of_piece = 0.0, of_person = 0.0;
 };
@@ -37,24 +37,24 @@ struct LogisticExample {
 };
 
 /// Maximum likelihood with a normal prior on all weights but the constant's, by Newton's method
-/// (iteratively reweighted least squares). Both kinds weigh the same however many there are.
+/// (iteratively reweighted least squares). Both classes have the same total weight.
 Eigen::VectorXd FitLogistic(const std::vector<LogisticExample>& examples, double prior);
 double ScoreLogistic(const Eigen::VectorXd& weights, const Eigen::VectorXd& terms);
 
-/// Examples of both classes with at least each threshold: rows for a table of kPassedColumns.
+/// Shares of both classes whose score reaches each threshold: rows of a table with kPassedColumns.
 inline const std::vector<std::string> kPassedColumns = {"what", "threshold", "people passed",
                                                         "others passed"};
 void AddPassedRows(const std::string& what, const Eigen::VectorXd& weights,
                    const std::vector<LogisticExample>& examples, Table& table);
 
-/// As a C++ array.
+/// The weights as a C++ array.
 std::string ArrayText(const std::string& name, const Eigen::VectorXd& weights);
 
-/// tools/people/person_classifier_weights.inc: by what the forest sees.
+/// tools/people/person_classifier_weights.inc: weights of the forest's features.
 Table FitForestWeights(ExperimentContext& context);
 /// tools/people/person_classifier_weights_from_above.inc: the same under the ceiling.
 Table FitForestWeightsFromAbove(ExperimentContext& context);
-/// tools/people/pose_weights.inc: by the forest's score and the pose network.
+/// tools/people/pose_weights.inc: weights of the forest's score and the pose network.
 Table FitPoseWeights(ExperimentContext& context);
 
 }  // namespace ossa::tools

@@ -33,7 +33,7 @@ std::string Row(const std::vector<std::string>& cells, const char* tag) {
   return row + "</tr>\n";
 }
 
-// What a cell begins with: "2.27 ± 0.1" is 2.27; nothing of "–" and of words.
+// The number that a cell begins with: 2.27 of "2.27 ± 0.1"; empty for "–" and for words.
 std::optional<double> ParseNumber(const std::string& cell) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
@@ -41,7 +41,7 @@ std::optional<double> ParseNumber(const std::string& cell) {
   return number;
 }
 
-// Bars for each row, of the columns that hold numbers of one size in most rows: else the largest
+// Bars for each row, of the columns whose numbers have similar size in most rows: else the largest
 // would hide all others.
 std::string Plot(const Table& table) {
   constexpr size_t kMostRows = 40, kMostColumns = 6;  // by eye: more cannot be told apart

@@ -8,8 +8,8 @@
 
 namespace ossa::tools {
 
-/// One page of a study that needs no other file: its tables, of each a plot of the columns that are
-/// numbers, and the figures (.svg, .png) that lie in `folder`.
+/// A self-contained HTML page of a study: its tables, a plot of the numeric columns of each, and
+/// the figures (.svg, .png) in `folder`.
 std::string ExperimentPage(std::string_view name, const std::vector<Table>& tables,
                            const std::filesystem::path& folder);
 

@@ -21,7 +21,7 @@ std::string ParseExercise(const std::string& clip) {
   return clip.substr(begin, clip.find('_', begin) - begin);
 }
 
-/// Mean joint distance to the nearest posture, of the joints that were seen; empty without enough.
+/// Mean distance of the observed joints from the nearest posture; empty if there are too few.
 std::optional<double> NearestDistance_cm(const recon::PostureDatabase& database,
                                          const recon::BodyRecord& body, double& yaw_rad) {
   constexpr double kFewest = 10.0;  // joints of 20, half of them; by hand

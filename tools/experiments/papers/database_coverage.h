@@ -8,10 +8,9 @@ class PostureDatabase;  // recon/database/posture_database.h
 
 namespace ossa::tools {
 
-/// How far the postures of people are from the nearest one of a database: the mean joint
-/// distance, normalised and of the standard size, by exercise (the part of a clip's name between
-/// the slash and the first underscore). What a database lacks, no method that looks postures up in
-/// it can give.
+/// Mean joint distance of recorded postures from the nearest posture of a database, both
+/// normalised, by exercise (the part of a clip's name between the slash and the first underscore):
+/// a lower bound for methods that use the database.
 Table CoverageTable(const recon::PostureDatabase& database, const std::vector<RecordedPair>& clips);
 
 }  // namespace ossa::tools

@@ -162,7 +162,7 @@ Table TableFive(const ExperimentContext& context, const Liu2016Study& study) {
   return table;
 }
 
-/// A mover is one body, in every study that has them, and no other mover's.
+/// Each mover has its own body.
 uint64_t BodyOf(const std::string& mover, std::map<std::string, uint64_t>* bodies) {
   const auto known = bodies->find(mover);
   if (known != bodies->end()) return known->second;

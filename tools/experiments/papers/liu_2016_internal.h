@@ -10,8 +10,8 @@ struct Liu2016Settings {
 };
 Liu2016Settings ReadLiu2016Settings(ExperimentContext& context);
 
-/// The recordings of `ossa experiment liu-2016`: clips are named "ACTION/MOVER", the subject is the
-/// mover, folds leave one mover out.
+/// The recordings of `ossa experiment liu-2016`: clips are named "ACTION/MOVER"; a mover is a
+/// subject, and each fold leaves one out.
 struct Liu2016Study {
   Liu2016Study() = default;  // of recordings to be given
   explicit Liu2016Study(ExperimentContext& context);
@@ -29,7 +29,7 @@ struct Liu2016Study {
                 const recon::LearnOptions& learn = {}) const;
 };
 
-/// Mean over folds and clips of an action; `prepare` may change the settings.
+/// Mean over folds and clips of an action; `prepare` may change the settings of each run.
 std::optional<double> MeasureError(const ExperimentContext& context, const Liu2016Study& study,
                                    const std::string& action, const std::string& method,
                                    const std::function<void(MethodRun&)>& prepare = {},

@@ -6,15 +6,14 @@
 
 namespace ossa::tools {
 
-/// Figure 5 of metrics [method][scenario], methods as in the paper and after them ours; `seen` are
-/// those of the frames in which the sensor saw somebody. A scenario in which a method has nothing
-/// to compare counts for none.
+/// Figure 5 from metrics [method][scenario], the paper's methods first; `seen`: metrics over frames
+/// with observed joints. A scenario without comparable frames for one method counts for none.
 Table MakePlantard2016FigureFive(const std::vector<std::string>& labels,
                                  const std::vector<std::vector<ClipMetrics>>& clips,
                                  const std::vector<std::vector<ClipMetrics>>& seen);
 
-/// Figure 8: the four frames, each of another performance, in which raw is worst, eq. 13 of
-/// pairs[method][scenario], methods as labelled; where the sensor saw nobody no frame counts.
+/// Figure 8: the four frames of different scenarios with the largest raw error (eq. 13), from
+/// pairs[method][scenario]; frames without observed joints do not count.
 Table MakePlantard2016FigureEight(const std::vector<std::string>& labels,
                                   const std::vector<std::vector<PairedTracks>>& pairs);
 
@@ -22,7 +21,7 @@ Table MakePlantard2016FigureEight(const std::vector<std::string>& labels,
 Table MakePlantard2016Tests(const std::vector<std::string>& labels,
                             const std::vector<std::vector<ClipMetrics>>& clips);
 
-/// The parameter `database_mocap`: what the database was made of.
+/// The parameter `database_mocap`: the motion that the database was made from.
 std::string ReadDatabaseMotion(Parameters& parameters);
 
 /// Figure 9: `method` (plantard-2016) over the hard scenarios, one parameter of the graph changed

@@ -9,8 +9,8 @@
 namespace ossa::tools {
 namespace {
 
-/// The clips that the database is of. A graph of its nodes alone would lack what the filter left
-/// out: its connections would be steps over what is missing.
+/// The clips from which the database was made. A graph built from its filtered nodes would have
+/// longer edges than one built from all postures.
 std::vector<recon::PostureClip> LoadDatabaseClips(ExperimentContext& context) {
   const std::string mocap = ReadDatabaseMotion(context.parameters);
   std::vector<recon::PostureClip> clips;

@@ -31,9 +31,9 @@ namespace fs = std::filesystem;
 struct ShottonSettings {
   std::string motion, test_motion;
   int pixels = 0, candidates = 0;
-  int validation_images = 0;  // of them proposals are learned
+  int validation_images = 0;  // for learning the proposals
   int test_images = 0;
-  std::vector<int> images, depths;  // each with each is trained
+  std::vector<int> images, depths;  // all combinations are trained
   int trees = 0;
 };
 
@@ -72,9 +72,9 @@ class ForestEvaluator {
   ForestEvaluator(ExperimentContext& context, ShottonSettings settings)
       : context_(context), settings_(std::move(settings)) {}
 
-  // A data set of this study; finished ones are kept.
+  // Renders a data set of this study, or finds the finished one.
   fs::path RenderData(Split split, int64_t frames);
-  // Train and measure; cached.
+  // Trains and evaluates a forest; cached.
   Evaluation EvaluateSetting(const Setting& setting, int64_t test_frames);
   Evaluation EvaluateShipped(int64_t test_frames);
 
@@ -196,7 +196,7 @@ Evaluation ForestEvaluator::EvaluateShipped(int64_t test_frames) {
       [&] { return forest::ReadForestModel(path); }, test_frames);
 }
 
-// A plot that stands by itself: LinePlot's lines with their names at the right.
+// A self-contained SVG file: LinePlot's lines with a legend.
 std::string Figure(const std::vector<Series>& series, const Axes& axes) {
   std::string plot = LinePlot(series, axes);
   plot.erase(0, plot.find("<svg"));

@@ -66,7 +66,7 @@ Table TableFour(const ExperimentContext& context, const Shum2013Study& study) {
   return table;
 }
 
-/// The papers end with the physical character; table IV is of the methods alone.
+/// The papers end with the physical character; table IV has the methods alone.
 Table TableFourWithPhysics(const ExperimentContext& context, const Shum2013Study& study) {
   Table table;
   table.title =
@@ -117,9 +117,9 @@ Table ByVisibility(const ExperimentContext& context, const Shum2013Study& study)
   return table;
 }
 
-/// Of the exercises of UI-PRMD; no table without the recordings.
+/// Adds a table of the exercises of UI-PRMD if the recordings are present.
 void AddCoverage(const ExperimentContext& context, std::vector<Table>& tables) {
-  constexpr size_t kEveryNthClip = 13;  // by hand: what takes minutes in the short form
+  constexpr size_t kEveryNthClip = 13;  // by hand: the short form takes minutes
   if (!std::filesystem::exists(context.shared / "real" / "uiprmd_kinect_vicon")) return;
   std::vector<RecordedPair> some;
   auto all = LoadUiPrmd(context.shared, false);

@@ -31,8 +31,8 @@ Directions ComputeDirections(const Posture& posture) {
   return out;
 }
 
-/// Eq. 18 of one frame where both postures have the same bones: each is off by its length times
-/// what its direction is off.
+/// Eq. 18 of one frame for equal bone lengths: the error of a bone is its length times the distance
+/// of the unit directions.
 double Error_cm(const Directions& a, const Directions& b, const BoneLengths& lengths_m) {
   double sum_m = 0.0;
   for (size_t i = 0; i < kBones; ++i) {

@@ -12,8 +12,8 @@
 namespace ossa::tools {
 namespace {
 
-/// Standard deviation of normalised joints from their mean place, of the upper and of the lower
-/// body: the root of the mean over joints of x, y and z's variances together.
+/// Standard deviation of normalised joints of the upper and of the lower body: the root of the mean
+/// over joints of the sum of the variances of x, y and z.
 class Spread {
  public:
   void Add(const recon::Posture& normalised) {
@@ -62,7 +62,7 @@ std::vector<std::string> MakeRow(const std::string& name, const Spread& spread) 
   return {name, std::to_string(spread.count()), Cell(spread.upper_cm()), Cell(spread.lower_cm())};
 }
 
-/// Postures of one recording, without place, heading and the person's size.
+/// Normalised postures of one recording.
 void AddAll(const recon::SkeletonSequence& sequence, Spread* spread) {
   recon::JointWeights all;
   all.fill(1.0);

@@ -25,7 +25,7 @@ struct Shum2013Study {
   void SetUpMethods(const ExperimentContext& context, const std::string& observer);
 };
 
-/// The database, and the test data.
+/// Table I: the database. Table II: the test data.
 Table TableOne(const ExperimentContext& context);
 Table TableTwo(const Shum2013Study& study);
 
@@ -34,10 +34,10 @@ Table TableTwo(const Shum2013Study& study);
 Table TableThree(const ExperimentContext& context, const Shum2013Study& study);
 Table ComputeTableThreeBounds(const ExperimentContext& context, const Shum2013Study& study);
 
-/// Every method before a tilted camera.
+/// Every method with a tilted camera.
 Table TiltTable(const ExperimentContext& context, const Shum2013Study& study);
 
-/// What each term brings; figures 8 and 9.
+/// Gain of each term; figures 8 and 9.
 std::vector<Table> MakeShum2013Sweeps(ExperimentContext& context, const Shum2013Study& study);
 
 }  // namespace ossa::tools

@@ -36,8 +36,8 @@ std::vector<Setup> Setups() {
           {"(e) all parts", 3.90, std::move(all)}};
 }
 
-/// Every posture turned to face the sensor, about its hips: the paper removes place and heading
-/// before it looks at any part (sec. V-A), so that they are known in every setup.
+/// Turns every posture about its hips to face the sensor: the paper removes position and heading
+/// first (sec. V-A), so that they are known in every setup.
 recon::SkeletonSequence Facing(recon::SkeletonSequence sequence) {
   recon::JointWeights all;
   all.fill(1.0);
@@ -58,8 +58,8 @@ recon::SkeletonSequence Facing(recon::SkeletonSequence sequence) {
   return sequence;
 }
 
-/// Keeps the parts of a setup and the root; the first frame keeps all of them: the reference
-/// posture that Kinect's tracking begins with, which fixes the person's bones (sec. IV-B).
+/// Keeps the parts of a setup and the root. The first frame keeps all joints: the reference posture
+/// at the start of tracking, which determines the bone lengths (sec. IV-B).
 recon::SkeletonSequence Only(recon::SkeletonSequence sequence, std::vector<Joint> used) {
   used.push_back(Joint::kHipCenter);
   for (size_t f = 1; f < sequence.frames.size(); ++f) {

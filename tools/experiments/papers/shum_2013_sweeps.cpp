@@ -21,12 +21,12 @@ namespace {
 struct Sweep {
   std::string name;                           // of the parameter
   std::string paper;                          // its value in table V
-  std::vector<double> values;                 // tried
-  void (*set)(MethodRun& run, double value);  // run.options.database is the study's own before
+  std::vector<double> values;                 // of the sweep
+  void (*set)(MethodRun& run, double value);  // run.options.database is the study's
 };
 
-/// ossa's authored clips, those of the shipped database, by the paper's own filter (sec. V-A): the
-/// sum of squared joint distances, of which the root is `threshold_m`.
+/// A database from ossa's authored clips (those of the shipped database) with the paper's filter
+/// (sec. V-A): the root of the sum of squared joint distances is at least `threshold_m`.
 std::shared_ptr<const recon::PostureDatabase> FilteredBySum(double threshold_m) {
   static const std::vector<recon::PostureClip> clips = [] {
     std::vector<recon::PostureClip> made;
@@ -115,8 +115,8 @@ double MeasureMilliseconds(const Step& step, size_t times) {
   return watch.milliseconds() / static_cast<double>(std::max<size_t>(1, times));
 }
 
-// The search and the space are what is left of a frame when the optimisation has next to nothing
-// to do; the reliability and the character are timed alone.
+// Time of search and space: that of a frame with hardly any optimisation. Reliability and character
+// are timed separately.
 Table FigureNine(const Shum2013Study& study) {
   const recon::SkeletonSequence& clip = study.furniture.at(0).observed;
   MethodRun idle = study.shum;
@@ -156,8 +156,8 @@ Table FigureNine(const Shum2013Study& study) {
   return table;
 }
 
-/// The gain of each term of eq. 15, of the reliability and of the search. The paper has method B
-/// only.
+/// The gain of each term of eq. 15, of the reliability and of the search. The paper only has method
+/// B.
 Table WithoutEachTerm(const ExperimentContext& context, const Shum2013Study& study) {
   struct Variant {
     const char* name;

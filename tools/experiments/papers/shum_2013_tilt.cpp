@@ -17,8 +17,9 @@ namespace {
 
 // Constants: chosen by hand, where nothing else is said.
 
-constexpr std::array kTilts_deg = {0.0, 10.0, 20.0, 27.0};  // the last: as far as a Kinect v1 tilts
-constexpr size_t kSeenWhole_frames = 60;                    // two seconds, then no legs
+constexpr std::array kTilts_deg = {0.0, 10.0, 20.0,
+                                   27.0};  // the last: the largest tilt of a Kinect v1
+constexpr size_t kSeenWhole_frames = 60;   // two seconds, then no legs
 
 recon::SkeletonSequence Tilted(recon::SkeletonSequence sequence, double tilt_deg) {
   const Eigen::AngleAxisd tilt(-tilt_deg * std::numbers::pi / 180.0, Eigen::Vector3d::UnitX());
@@ -33,7 +34,7 @@ recon::SkeletonSequence Tilted(recon::SkeletonSequence sequence, double tilt_deg
   return sequence;
 }
 
-/// Through the lowest joint of the truth, and level but for the camera's tilt.
+/// A horizontal floor through the lowest true joint, in the tilted camera's space.
 void AddFloor(double tilt_deg, const recon::SkeletonSequence& truth,
               recon::SkeletonSequence* observed) {
   const double rad = tilt_deg * std::numbers::pi / 180.0;
@@ -74,7 +75,7 @@ bool MustLearn(const MethodRun& run) {
   return recon::RequireMethod(run.options.method).learned == recon::Reads::kRequired;
 }
 
-/// All; those that must learn where there are other clips to learn from.
+/// All methods; those that must learn only if there are other clips.
 std::vector<MethodRun> Methods(const Shum2013Study& study) {
   std::vector<MethodRun> runs;
   for (const recon::MethodInfo& method : recon::MethodTable()) {
@@ -86,7 +87,7 @@ std::vector<MethodRun> Methods(const Shum2013Study& study) {
   return runs;
 }
 
-/// What a method must learn, it learns before a level camera from all clips but the tested one.
+/// Methods learn with a level camera from all clips but the tested one.
 MethodRun Prepared(const ExperimentContext& context, const Shum2013Study& study, MethodRun run,
                    size_t tested) {
   if (!MustLearn(run)) return run;

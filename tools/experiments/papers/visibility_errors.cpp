@@ -6,7 +6,7 @@
 namespace ossa::tools {
 namespace {
 
-/// The true body of that time; null where there is none.
+/// The true body at that time; null if there is none.
 const recon::BodyRecord* BodyAt(const recon::SkeletonSequence& truth, double time_s) {
   constexpr double kSameTime_s = 1e-3;  // rounding of printed times
   const auto frame =

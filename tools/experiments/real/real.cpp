@@ -1,5 +1,5 @@
-// `ossa experiment real`: every real set, each stage of the tracker beside the others. A change
-// that helps on rendered people and not here does not count as a gain.
+// `ossa experiment real`: every stage of the tracker on every real set. Only gains on these sets
+// count, not those on rendered people alone.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -31,8 +31,8 @@ bool IsFoot(recon::Joint joint) {
   return joint == recon::Joint::kFootLeft || joint == recon::Joint::kFootRight;
 }
 
-// ITOP's feet held against our ankles: NiTE's foot, whose 15 joints ITOP's are, is the ankle. What
-// a foot's own direction adds is no constant offset.
+// ITOP's feet compared with our ankles: ITOP has NiTE's 15 joints, whose foot is the ankle. The
+// offset from ankle to foot depends on the foot's direction and is not constant.
 RealSet WithAnklesForFeet(RealSet set) {
   set.name += "_ankles";
   for (recon::Joint& joint : set.joints) {
@@ -299,7 +299,7 @@ void WriteJson(const ExperimentContext& context, const json& report) {
 }
 
 struct RealSettings {
-  int frames = 0;  // of each set and recording at most; 0: all
+  int frames = 0;  // at most, of each set and recording; 0: all
   std::string pose_network;
   int lag = 0;
   bool fit = true;
@@ -322,7 +322,7 @@ tracker::TrackerOptions MakeOptions(const ExperimentContext& context,
   return options;
 }
 
-// The tables and real.json, set by set.
+// Builds the tables and real.json, set by set.
 class RealReport {
  public:
   RealReport(ExperimentContext& context, tracker::Tracker& tracker)

@@ -9,8 +9,7 @@
 namespace ossa::tools {
 namespace {
 
-// Fewest stills to estimate a constant offset. By hand: the median of two is their
-// mean.
+// Minimum number of stills for a constant offset. By hand: the median of two is their mean.
 constexpr size_t kLeastForOffset = 3;
 
 std::optional<Eigen::Vector3d> ErrorAgainst(const RealTruth& truth, const depth::Camera& camera,
@@ -47,7 +46,8 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-// The constant offset of joint `j`, by the stills that may say it for still `i`; none of too few.
+// The constant offset of joint `j` for still `i`, from the stills that may be used; empty if there
+// are too few.
 std::optional<Eigen::Vector3d> OffsetFor(const RealSet& set,
                                          const std::vector<StillResult>& results, RealStage stage,
                                          size_t i, size_t j) {
@@ -64,7 +64,7 @@ std::optional<Eigen::Vector3d> OffsetFor(const RealSet& set,
   return Eigen::Vector3d(Median(axes[0]), Median(axes[1]), Median(axes[2]));
 }
 
-// An error without that offset; `removed` becomes true where there is one.
+// The error minus the offset; sets `removed` if there is an offset.
 Eigen::Vector3d WithoutOffset(const Eigen::Vector3d& error_m,
                               const std::optional<Eigen::Vector3d>& offset_m, bool& removed) {
   removed = removed || offset_m;

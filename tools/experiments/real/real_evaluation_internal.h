@@ -20,8 +20,8 @@ std::string_view StageName(RealStage stage);
 using StageJoints = recon::JointArray<std::optional<Eigen::Vector3d>>;
 StageJoints JointsAtStage(const tracker::Body& body, RealStage stage);
 
-/// Error of each joint of one still: estimate minus truth, camera axes, metres; across the line of
-/// sight only where the truth is a mark. Empty where either is missing.
+/// Error of each joint of one still: estimate minus truth, camera axes, metres; only across the
+/// line of sight if the truth is a mark. Empty if either is missing.
 using JointErrors = std::vector<std::optional<Eigen::Vector3d>>;
 
 struct StillResult {
@@ -33,8 +33,8 @@ struct StillResult {
   double fit_ms = 0.0;                     // of all bodies
 };
 
-/// A still, seen alone: the tracker is reset first. Of several bodies the one whose raw joints are
-/// nearest to the truth is evaluated.
+/// Evaluates a still; the tracker is reset first. If there are several bodies, the one whose raw
+/// joints are nearest to the truth counts.
 StillResult EvaluateStill(const RealSet& set, const RealStill& still, tracker::Tracker& tracker);
 
 /// Error of joint `j` of still `i` less the joint's constant offset; empty where the joint is
@@ -43,7 +43,7 @@ std::optional<Eigen::Vector3d> ErrorWithoutOffset(const RealSet& set,
                                                   const std::vector<StillResult>& results,
                                                   RealStage stage, size_t i, size_t j);
 
-/// Figures of one stage over a set.
+/// Accuracy of one stage over a set.
 struct StageScore {
   RealStage stage = RealStage::kRaw;
   bool offset_removed = false;                 // of one joint at least; too few stills say none
@@ -62,11 +62,11 @@ struct StateScore {
 };
 StateScore ScoreStates(const RealSet& set, const std::vector<StillResult>& results);
 
-/// `counted` says by joint of the set which go into the score.
+/// `counted[j]`: joint j of the set counts.
 StageScore ScoreStage(const RealSet& set, const std::vector<StillResult>& results, RealStage stage,
                       bool remove_offset, const std::vector<bool>& counted);
 
-/// Raw and final joints side by side: mean errors of those joints that both have, offset removed.
+/// Mean errors of raw and of final joints over the joints that both have, offset removed.
 struct RawAndFinal {
   int64_t joints = 0;
   double raw_cm = 0.0, final_cm = 0.0;
@@ -74,7 +74,7 @@ struct RawAndFinal {
 };
 RawAndFinal ScoreRawAndFinal(const RealSet& set, const std::vector<StillResult>& results);
 
-/// Figures that need no truth.
+/// Measures without truth.
 struct VideoScore {
   int64_t frames = 0, bodies = 0, one_body = 0;
   int64_t one_alone = 0, nobody_alone = 0;  // frames, each as if it were the first
@@ -85,7 +85,7 @@ struct VideoScore {
   double explained = 0.0;  // share of users' pixels within 5 cm of the posed body
 };
 
-/// The tracker is reset first, and before each frame of a set of stills.
+/// The tracker is reset first, and for stills before each frame.
 VideoScore EvaluateVideo(const RealVideo& video, tracker::Tracker& tracker);
 
 }  // namespace ossa::tools

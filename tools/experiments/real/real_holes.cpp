@@ -5,7 +5,7 @@
 namespace ossa::tools {
 namespace {
 
-// Rows and columns, in pixels, by definition: a colour camera's image with half as many again.
+// Pixels of a row and of a column, by definition: a colour image with one and a half times as many.
 constexpr int kGrid = 3;
 
 bool IsOnGrid(size_t pixel, int width) {

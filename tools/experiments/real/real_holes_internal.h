@@ -6,7 +6,7 @@
 
 namespace ossa::tools {
 
-/// Which pixels of a real image are left without a reading, as other sensors leave them.
+/// Pixels of a real image that are set to no reading, as other sensors do.
 enum class Holes {
   kTenth,  // of all pixels, at random: time of flight before dark cloth
   kThird,  // the same
@@ -15,7 +15,7 @@ enum class Holes {
 inline constexpr std::array kAllHoles = {Holes::kTenth, Holes::kThird, Holes::kGrid};
 std::string_view HolesName(Holes holes);
 
-/// The set with such holes in its images; the same ones for the same seed.
+/// The set with such holes in its images; equal seeds give equal holes.
 RealSet WithHoles(RealSet set, Holes holes, uint64_t seed);
 
 }  // namespace ossa::tools

@@ -1,4 +1,4 @@
-// Reads what lies below SHARED/real into one form: stills with truth, and recordings without.
+// Reads all data below SHARED/real: stills with truth, and recordings without.
 #include "tools/experiments/real/real_sets_internal.h"
 
 #include <fmt/format.h>
@@ -22,14 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 using recon::Joint;
 
-// Joints marked by eye on skeltrack_v1, as they would show on the surface: file, joint, u, v in
+// Joints marked by eye on skeltrack_v1 where they project onto the surface: file, joint, u, v in
 // pixels of 640 x 480.
 constexpr const char* kSkeltrackMarks =
 #include "tools/experiments/real/kinect_marks.inc"
     ;
 
-// ITOP's 15 joints and the nearest of ours. Its neck, torso, hips and feet are not ours: a constant
-// offset a joint is removed before the two are compared.
+// ITOP's 15 joints and the nearest of ours. Its neck, torso, hips and feet are defined differently:
+// a constant offset per joint is removed before comparison.
 struct ItopJoint {
   const char* name;
   Joint joint;
@@ -56,7 +56,7 @@ constexpr depth::Camera kItopCamera{
     .width = 100, .height = 100, .fx = 119.05, .fy = 119.05, .cx = 49.71, .cy = 49.71};
 // The one image whose depth scale is ambiguous, by the data's README.
 constexpr const char* kItopAmbiguous = "top/046";
-// A Kinect v1's image cut to what its colour ramp shows, by the data's README.
+// A Kinect v1's image, cropped to its colour ramp, by the data's README.
 constexpr depth::Camera kSeatedCamera{
     .width = 474, .height = 490, .fx = 585, .fy = 585, .cx = 154, .cy = 245};
 constexpr double kKinectFrame_s = 1.0 / 30.0;  // of a Kinect v1, by its data sheet
@@ -96,7 +96,7 @@ struct Mark {
   Eigen::Vector2d pixel;
 };
 
-// Lines of `file joint u v`, as ossa's own or beside the images.
+// Lines of `file joint u v`, from ossa's own marks or beside the images.
 std::multimap<std::string, Mark> ParseMarks(std::istream& in, const std::string& name) {
   std::multimap<std::string, Mark> marks;
   std::string line;
@@ -198,7 +198,7 @@ std::optional<Eigen::Vector3d> ItopPoint(const CsvTable& table, size_t row,
   return Eigen::Vector3d(-*x, *y, *z);
 }
 
-// `side` or `top`, whose truth begins with that letter in capitals. The peer saw the side only.
+// `side` or `top`; the truth's keys begin with that letter in capitals. Only the side has a peer.
 RealSet ItopSet(const fs::path& folder, const std::string& view, int most) {
   const CsvTable table = ReadCsv(folder / "truth.csv");
   RealSet set{.name = "itop_" + view, .peer = view == "side" ? "A2J" : ""};

@@ -1,4 +1,4 @@
-// Recordings without truth: quantities that need none.
+// Measures of recordings without truth.
 #include <algorithm>
 #include <deque>
 
@@ -12,11 +12,11 @@ namespace {
 
 // Constants: chosen by hand; they define the figures and are never tuned.
 //
-// A body of another number so near to where somebody was a frame ago is the same person.
+// A body with a new id nearer than this to a body of the previous frame is the same person.
 constexpr double kSamePlace_m = 0.3;
-// Clothes and hair stand off a capsule of the naked limb's mean radius by so much.
+// Distance of clothes and hair from a capsule with the naked limb's mean radius.
 constexpr double kExplained_m = 0.05;
-constexpr size_t kEveryPixel = 7;  // of a user's pixels that are held against the posed body
+constexpr size_t kEveryPixel = 7;  // every 7th pixel of a user is compared with the posed body
 
 struct Explained {
   int64_t pixels = 0, near = 0;
@@ -30,7 +30,7 @@ double DistanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
   return (p - a - t * along).norm();
 }
 
-// The final posture as capsules, against the pixels that are said to be this person's.
+// The final posture as capsules, compared with the pixels of this person.
 void AddExplained(const depth::DepthFrame& frame, const tracker::BodyFrame& answer,
                   const tracker::Body& body, const StageJoints& joints, Explained& explained) {
   recon::Posture posture;
@@ -82,7 +82,7 @@ void CountAlone(const RealVideo& video, tracker::Tracker& tracker, VideoScore& s
   }
 }
 
-// Stills are evaluated independently: no quantity of motion.
+// Stills are evaluated independently, without measures of motion.
 class VideoEvaluator {
  public:
   explicit VideoEvaluator(bool stills) : stills_(stills) {}
@@ -131,7 +131,7 @@ void EvaluateStills(const RealVideo& video, tracker::Tracker& tracker, VideoEval
 }
 
 void EvaluateMotion(const RealVideo& video, tracker::Tracker& tracker, VideoEvaluator* evaluator) {
-  std::deque<const depth::DepthFrame*> waiting;  // for their bodies, which are late by the lag
+  std::deque<const depth::DepthFrame*> waiting;  // for their bodies, which lag behind
   const auto add_first = [&](tracker::BodyFrame answer) {
     evaluator->AddFrame(*waiting.front(), std::move(answer));
     waiting.pop_front();

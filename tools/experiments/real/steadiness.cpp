@@ -9,11 +9,10 @@ namespace {
 
 // Constants: chosen by hand; they define the figures and are never tuned.
 //
-// Windows in which a raw joint's halves have means so near to each other hold still.
+// Joints whose mean raw positions over the two halves of a window are nearer than this rest.
 constexpr size_t kWindow = 6;
 constexpr double kStill_m = 0.01;
-// A joint that is so much farther on a frame later leapt: no limb is moved so far between frames of
-// 10 Hz.
+// A joint that moves farther than this between two frames leaps: no limb moves so far in 0.1 s.
 constexpr double kLeap_m = 0.5;
 
 bool IsThroughout(const std::deque<BodyStages>& window, RealStage stage, size_t j) {
@@ -30,7 +29,7 @@ bool IsStill(const std::deque<BodyStages>& window, size_t j) {
   return (halves[0] - halves[1]).norm() < kStill_m;
 }
 
-// Per cent of the mean, averaged over the bones that were seen in two frames or more.
+// Percent of the mean, averaged over the bones with a length in two frames or more.
 double MeasureVariation(const recon::JointArray<std::vector<double>>& bones_m) {
   double sum = 0;
   int count = 0;
@@ -77,7 +76,7 @@ void Steadiness::AddJitter(const Window& window) {
   }
 }
 
-// A joint that was not there cannot leap.
+// A joint without a position a frame before cannot leap.
 void Steadiness::AddLeaps(const Window& window) {
   if (window.size() < 2) return;
   const BodyStages& before = window[window.size() - 2];

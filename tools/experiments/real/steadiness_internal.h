@@ -10,19 +10,19 @@ namespace ossa::tools {
 /// Where each stage puts the joints of one body, metres.
 using BodyStages = std::map<RealStage, StageJoints>;
 
-/// How steady the bodies of a recording are, stage by stage.
+/// Steadiness of the bodies of a recording, for each stage.
 class Steadiness {
  public:
-  /// Everybody in the next frame, by number. Who is not among them is new when they come back.
+  /// Adds a frame: its bodies by id. A body that is absent from a frame counts as new afterwards.
   void Add(const std::map<int, BodyStages>& bodies);
 
-  /// Root mean square distance from their mean over six frames, millimetres, of joints that hold
-  /// still: whose raw places of the first three and of the last three frames have means within a
-  /// centimetre of each other.
+  /// RMS distance of resting joints from their mean over six frames, millimetres. A joint rests if
+  /// the means of its raw positions over the first and over the last three frames are within a
+  /// centimetre.
   std::map<RealStage, double> MeasureJitter() const;
-  /// Standard deviation over mean of bones' lengths, per cent, averaged over the bones.
+  /// Standard deviation over mean of the bones' lengths, percent, mean over the bones.
   std::map<RealStage, double> MeasureBoneVariation() const;
-  /// In 100 frames so many joints are more than half a metre from where they were a frame before.
+  /// Joints per 100 frames that are more than half a metre from their position a frame before.
   std::map<RealStage, double> CountLeaps() const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace ossa::tools {
 
-/// What no body does, counted in recordings without truth. One count is one joint (or bone, or pair
-/// of hands) in one frame.
+/// Counts of impossible motion in recordings without truth. One count is one joint (or bone, or
+/// pair of hands) in one frame.
 struct GrossFailures {
   int64_t frames = 0;
   int64_t jumps = 0;        // a joint left its parent's side by 25 cm since the frame before
@@ -21,10 +21,10 @@ struct GrossFailures {
   GrossFailures& operator+=(const GrossFailures& other);
 };
 
-/// Failures of `sequence`. Whether they were noticed is read from `judged`, the same frames with
-/// reliabilities (a method's output), the bones' medians from `recording`, which holds what the
-/// sensor said: what a method makes is not to be its own measure. Joints that are absent or not
-/// tracked do not count. Frames more than a tenth of a second apart are not compared.
+/// Failures of `sequence`. `judged`: the same frames with reliabilities (a method's output), which
+/// decide whether a failure was noticed. `recording`: the sensor's skeletons, from which the median
+/// bone lengths are taken. Joints that are absent or not tracked do not count. Frames more than 0.1
+/// s apart are not compared.
 GrossFailures CountGrossFailures(const recon::SkeletonSequence& sequence,
                                  const recon::SkeletonSequence& judged,
                                  const recon::SkeletonSequence& recording);

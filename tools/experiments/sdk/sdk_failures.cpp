@@ -1,5 +1,5 @@
-// Gross failures of SDKs in recordings without truth: how many there are, how many the reliability
-// of Shum 2013 notices without any tracking state, and how many are left in what a method makes.
+// Gross failures of SDKs in recordings without truth: their number, how many the reliability of
+// Shum 2013 detects without tracking states, and how many remain in a method's output.
 #include <fmt/format.h>
 
 #include "recon/reliability.h"
@@ -10,7 +10,8 @@
 namespace ossa::tools {
 namespace {
 
-/// The recordings of one source, without tracking states: what is noticed is noticed from motion.
+/// The recordings of one source, without tracking states, so that failures are detected from motion
+/// only.
 std::map<std::string, std::vector<recon::SkeletonSequence>> Recordings(
     const ExperimentContext& context) {
   std::map<std::string, std::vector<recon::SkeletonSequence>> sources;

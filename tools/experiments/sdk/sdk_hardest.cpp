@@ -1,4 +1,4 @@
-// Where a method is farthest off: the recordings by person and exercise.
+// Largest errors of a method by person and exercise.
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -10,7 +10,7 @@ namespace ossa::tools {
 namespace {
 
 constexpr const char* kScattered = "s01";  // by the README beside the recordings
-constexpr double kHard_cm = 10.0;          // twice what a sensor's own joints are off by; by hand
+constexpr double kHard_cm = 10.0;          // twice the error of a sensor's own joints; by hand
 
 /// Of "s01/m03_s01_e09", "s01" and "m03".
 std::pair<std::string, std::string> PersonAndExercise(const std::string& clip) {

@@ -1,7 +1,7 @@
-// How much do frames that come later help, and is their Gaussian fitted to the people it is tested
-// on? For each person left out the widths are chosen on the others, nothing learned of the one that
-// they are tried on (two people left out at a time), as in sdk_nested.cpp. The low pass of
-// laboratories gets its best cut-off in the same way.
+// Gain of smoothing with later frames, by nested cross-validation: for each tested person the
+// widths of the Gaussian are chosen on the other people, each evaluated without having been learned
+// from (two people left out at a time), as in sdk_nested.cpp. The cut-off of a Butterworth low
+// pass, common in laboratories, is chosen in the same way.
 #include <fmt/format.h>
 
 #include <limits>
@@ -19,16 +19,16 @@ namespace {
 
 // Constants: by hand; they define the table.
 
-constexpr double kFast_m_per_s = 1.0;  // what is smeared by smoothing shows in joints faster
+constexpr double kFast_m_per_s = 1.0;  // faster joints show the error of smoothing
 constexpr double kAllowed = 1.005;     // positions count as unchanged up to half a per cent
 
-/// One way to smooth: a low pass over what was seen, or a Gaussian over what best makes of it.
+/// A smoothing: a low pass of the observation, or a Gaussian filter of the output of `best`.
 struct Smoothing {
   recon::LagOptions lag;
   double cutoff_hz = 0.0;  // of a low pass
 };
 
-/// Smoothings among which one is chosen; the first is what positions are held against.
+/// Smoothings among which one is chosen; the first is the reference for position errors.
 struct Family {
   std::string name;
   std::vector<Smoothing> smoothings;
@@ -39,7 +39,8 @@ Smoothing LowPass(double cutoff_hz) { return {{.frames = 0}, cutoff_hz}; }
 Family Gaussians(const std::string& name, int frames) {
   Family family{name, {{{.frames = 0}, 0.0}}};
   for (const double sigma_s : {0.03, 0.05, 0.08, 0.12}) {
-    for (const double alike_m : {0.02, 0.05}) {  // more smears a jump of 40 cm by centimetres
+    for (const double alike_m :
+         {0.02, 0.05}) {  // larger values smear a jump of 40 cm by centimetres
       family.smoothings.push_back({{frames, sigma_s, alike_m, true}, 0.0});
     }
   }
@@ -62,7 +63,7 @@ struct FastError {
   int64_t count = 0;
 };
 
-/// What a smoothing leaves.
+/// Errors after smoothing.
 struct Left {
   std::vector<ClipMetrics> clips;
   std::vector<FastError> fast;  // of each clip
@@ -134,7 +135,7 @@ void AddLeft(const Left& one, Left& sum) {
   sum.fast.insert(sum.fast.end(), one.fast.begin(), one.fast.end());
 }
 
-/// The smoothings over the fold's tested clips, learned without whoever is in them. Cached.
+/// Errors of the smoothings over the fold's tested clips, learned without their subject. Cached.
 std::vector<Left> EvaluateAll(ExperimentContext& context, const Fold& fold,
                               const std::vector<Smoothing>& smoothings,
                               const recon::ReconstructorOptions& options) {
@@ -169,7 +170,7 @@ std::vector<Left> EvaluateAll(ExperimentContext& context, const Fold& fold,
   return FromJson(nlohmann::json::parse(text));
 }
 
-/// Of each person: what the smoothings make of the others, every `every`-th clip.
+/// For each person: errors of the smoothings on the other people, over every `every`-th clip.
 std::map<std::string, std::vector<Left>> EvaluateOnOthers(
     ExperimentContext& context, const std::vector<Fold>& folds,
     const std::vector<Smoothing>& smoothings, const recon::ReconstructorOptions& options,
@@ -197,8 +198,8 @@ std::map<std::string, std::vector<Left>> EvaluateOnOthers(
   return others;
 }
 
-/// The smoothing with the least acceleration error among those that leave positions, those of fast
-/// joints, too, as they are; the first one where none does.
+/// The smoothing with the least acceleration error among those that do not increase position
+/// errors, also of fast joints; the first one if there is none.
 size_t ChooseLag(const std::vector<Left>& lefts, size_t begin, size_t end) {
   const auto of = [&](size_t s, std::optional<double> ClipMetrics::*member) {
     return Average(lefts[s].clips, member).value_or(std::numeric_limits<double>::infinity());

@@ -21,7 +21,7 @@
 namespace ossa::tools {
 namespace {
 
-// What a study keeps of a clip.
+// The cached metrics of a clip.
 constexpr std::array kKept = {&ClipMetrics::mean_joint_error_cm,
                               &ClipMetrics::parent_relative_error_cm,
                               &ClipMetrics::offset_removed_error_cm,
@@ -50,21 +50,21 @@ ClipMetrics FromJson(const nlohmann::json& numbers) {
   return clip;
 }
 
-/// Frames of lag of a method by the name that these tables have.
+/// Frames of lag of a method by its name in these tables.
 int ParseLag(const std::string& method) {
   if (method == kBestOffline) return recon::kWholeRecording;
   const auto* const later = std::find(kBestLater.begin(), kBestLater.end(), method);
   return later == kBestLater.end() ? 0 : 1 + static_cast<int>(later - kBestLater.begin());
 }
 
-// Of these names some are no methods of their own.
+// Options of the names that are not methods of their own.
 std::string BaseMethod(std::string method) {
   if (method.ends_with(kPlusPhysics)) method.resize(method.size() - kPlusPhysics.size());
   const bool is_best = ParseLag(method) != 0 || method == kBestUnlearned;
   return is_best ? std::string(recon::kDefaultMethod) : method;
 }
 
-/// Each frame's bodies as they were some frames before; the first frames as they are.
+/// Delays the bodies by some frames; the first frames stay.
 recon::SkeletonSequence Delayed(const recon::SkeletonSequence& observed, size_t frames) {
   recon::SkeletonSequence late = observed;
   for (size_t f = frames; f < late.frames.size(); ++f) {
@@ -82,7 +82,7 @@ std::string DescribeConstants(const recon::BestConstants& c) {
 
 namespace {
 
-/// Of what the recordings hold, frame by frame.
+/// Key of the recordings' content.
 std::map<const RecordedPair*, std::string> MakeKeys(const std::vector<RecordedPair>& pairs) {
   std::map<const RecordedPair*, std::string> keys;
   for (const RecordedPair& pair : pairs)
@@ -90,7 +90,7 @@ std::map<const RecordedPair*, std::string> MakeKeys(const std::vector<RecordedPa
   return keys;
 }
 
-/// Of what a fold learns from and is tested on.
+/// Key of the clips a fold learns from and tests.
 std::string ComputeKey(const Fold& fold, const std::map<const RecordedPair*, std::string>& keys) {
   std::string key;
   for (const auto* side : {&fold.train, &fold.test}) {

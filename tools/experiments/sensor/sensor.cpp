@@ -1,4 +1,4 @@
-// The simulated sensor beside a real one: the same statistics of rendered frames and of a Kinect's.
+// Simulated sensors beside real ones: the same statistics of rendered and of real frames.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::vector<recon::RigPose> Bank(const ExperimentContext& context) {
   return MakePoseBank(recon::LoadMocap({"authored"}, mocap));
 }
 
-// People in rooms, by the options' sensor.
+// Frames of people in rooms, from the sensor of the options.
 SensorStatistics MeasureRendered(ExperimentContext& context, FrameOptions options,
                                  const std::vector<View>& views, int64_t frames) {
   SensorStatistics statistics;
@@ -72,7 +72,7 @@ SensorStatistics MeasureRendered(ExperimentContext& context, FrameOptions option
 }
 
 // ITOP's side views: an Xtion's 320 x 240 shrunk 2.4 times by nearest neighbour, 45.6° wide.
-constexpr double kItopFocal_px = 119.05;  // measured by who shrunk them, in the data's README
+constexpr double kItopFocal_px = 119.05;  // measured by the data's authors, in its README
 constexpr double kItopShrink = 2.4;       // factor; measured, the same README
 constexpr double kItopFov_deg = 45.6;     // derived: 2 atan(50 / 119.05)
 constexpr double kAzureFov_deg = 64.8;    // derived: 2 atan(320 / 504), NFOV of an Azure Kinect
@@ -127,7 +127,7 @@ void AddRows(const std::string& sensor, const std::optional<SensorStatistics>& r
       [](const SensorStatistics& s) { return 1e-2 * PerTenThousand(s.between, s.edges); });
 }
 
-// The other sensors, beside real frames where there are some.
+// The other sensors, beside real frames if there are any.
 Table OtherSensors(ExperimentContext& context, int64_t frames) {
   Table table{"Other sensors",
               {"sensor", "quantity", "real", "rendered"},

@@ -1,4 +1,4 @@
-// Statistics of depth images that tell sensors apart.
+// Statistics of depth images that differ between sensors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,8 +41,8 @@ std::optional<double> PlaneResidual_mm(const depth::Image<uint16_t>& image, int 
   return std::sqrt(std::max(0.0, squares - explained) / (kCount - 3));
 }
 
-// The projector stands beside the camera: what it does not light has no reading, f b (1/near -
-// 1/far) pixels wide, on one side of the near surface.
+// The projector is beside the camera: the unlit strip, f b (1/near - 1/far) pixels wide on one side
+// of the near surface, has no reading.
 void CountShadows(const depth::Image<uint16_t>& image, double focal_px, int v,
                   SensorStatistics& statistics) {
   constexpr double kBaseline_m = 0.075;  // Kinect v1: 75 mm
@@ -54,14 +54,14 @@ void CountShadows(const depth::Image<uint16_t>& image, double focal_px, int v,
     const double left_m = 1e-3 * image.at(u - 1, v), right_m = 1e-3 * image.at(end, v);
     if (std::abs(left_m - right_m) < kEdge_m) continue;
     const double width_px = focal_px * kBaseline_m * std::abs(1.0 / left_m - 1.0 / right_m);
-    if (width_px < 3) continue;  // lost in the raggedness of edges
+    if (width_px < 3) continue;  // as small as the noise of edges
     const bool near_follows = right_m < left_m;
     (near_follows ? statistics.left_shadows : statistics.right_shadows)
         .push_back((end - u) / width_px);
   }
 }
 
-// Two flat surfaces with one pixel between them in a row: is that one on either?
+// Two flat surfaces with one pixel between them in a row: is that pixel on one of them?
 void CountEdge(const uint16_t* middle, SensorStatistics& statistics) {
   constexpr double kGap_mm = 300.0,
                    kOn = 0.15;  // share of the gap; a person before a wall, by hand
@@ -102,7 +102,7 @@ void Gather(const depth::Image<uint16_t>& image, double focal_px, SensorStatisti
       const auto band = FindBand(1e-3 * z);
       if (!band) continue;
       statistics.readings_mm[*band].push_back(z);
-      if (u % 3 != 0 || v % 3 != 0) continue;  // neighbouring windows say the same
+      if (u % 3 != 0 || v % 3 != 0) continue;  // neighbouring windows are redundant
       const auto residual = PlaneResidual_mm(image, u, v);
       if (residual) statistics.residuals_mm[*band].push_back(*residual);
     }

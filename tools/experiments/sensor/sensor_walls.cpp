@@ -1,4 +1,5 @@
-// A facing wall before each simulated sensor: noise in closed form or as it is published.
+// Noise of each simulated sensor at a perpendicular wall, against the closed form or published
+// figures.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace {
 struct Walled {
   const char* sensor;
   depth::Camera camera;
-  double (*published_mm)(double z_m);  // standard deviation; NaN where nothing is said
+  double (*published_mm)(double z_m);  // standard deviation; NaN: not published
   const char* source;
 };
 
@@ -29,7 +30,7 @@ struct Wall {
   double deviation_mm = 0, read = 0;
 };
 
-/// In the middle third of the image: before light falls off and bands end.
+/// In the middle third of the image, where illumination is even.
 Wall Measure(const Walled& walled, double z_m, uint64_t seed) {
   const depth::Camera& camera = walled.camera;
   const int w = camera.width, h = camera.height;

@@ -14,7 +14,7 @@ using physics::ObjectOptions;
 using recon::Joint;
 using recon::Posture;
 
-/// Speed that carries a ball from one place to another in `time_s` under gravity.
+/// Velocity that brings a ball from `from` to `to` in `time_s` under gravity.
 Vector3d ComputeLaunchVelocity(const Vector3d& from, const Vector3d& to, double time_s) {
   return (to - from) / time_s + Vector3d(0.0, 0.5 * 9.81 * time_s, 0.0);
 }
@@ -63,7 +63,7 @@ double LargestDistance_m(const Posture& a, const Posture& b) {
   return largest_m;
 }
 
-/// What balls thrown at the head of a standing person hit.
+/// Hits by balls thrown at the head of a standing person.
 struct DodgeRun {
   int head_hits = 0, forearm_hits = 0;  // frames
   std::vector<Picture> pictures;
@@ -102,7 +102,7 @@ SceneResult MeetBalls(const ActionClips& clips, uint64_t seed) {
   SceneSimulation simulation(seed, view);
   const std::vector<Posture>& motion = clips.Get("tai_chi");
   const int person = simulation.AddPerson(motion[0]);
-  // The same without balls, to see what the impacts do.
+  // The same without balls, as a reference.
   SceneSimulation calm(seed, view, false);
   const int twin = calm.AddPerson(motion[0]);
   std::mt19937_64 random(seed);

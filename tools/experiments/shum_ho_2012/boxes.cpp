@@ -20,7 +20,7 @@ double Blend(double t, double from, double to) {
   return x * x * (3.0 - 2.0 * x);
 }
 
-/// Where the elbow is when the wrist is at `wrist`, bent towards `pole`.
+/// Position of the elbow for a wrist at `wrist`, bent towards `pole`.
 Vector3d PlaceElbow(const Vector3d& shoulder, const Vector3d& wrist, double upper_m, double fore_m,
                     const Vector3d& pole) {
   const double reach = std::min((wrist - shoulder).norm(), 0.999 * (upper_m + fore_m));
@@ -30,14 +30,14 @@ Vector3d PlaceElbow(const Vector3d& shoulder, const Vector3d& wrist, double uppe
   return shoulder + before * along + beside * (pole - pole.dot(along) * along).normalized();
 }
 
-/// Both hands, wrists too, at the sides of something `half_m` wide: user constraints of sec. 6.1.
-/// The clip's own elbows know nothing of the box: theirs go where the wrists want them.
+/// Moves hands and wrists to the sides of an object of half width `half_m` (user constraints of
+/// sec. 6.1), and the elbows with them.
 void PutHands(SceneSimulation& simulation, int person, const Vector3d& middle, double half_m,
               Posture& body) {
   const recon::BoneLengths lengths = recon::MeasureBoneLengths(body);
   for (const double side : {1.0, -1.0}) {
     const size_t hand = static_cast<size_t>(side > 0 ? Joint::kHandLeft : Joint::kHandRight);
-    // A little above the middle: the box hangs.
+    // A little above the centre, so that the box hangs.
     const Vector3d at = middle + Vector3d(side * half_m, 0.06, 0.0);
     const Vector3d wrist = at + Vector3d(side * 0.01, 0.03, -0.04);
     simulation.world.Constrain(person, static_cast<Joint>(hand), at + Vector3d(0.0, 0.0, 0.04),
@@ -48,7 +48,7 @@ void PutHands(SceneSimulation& simulation, int person, const Vector3d& middle, d
   }
 }
 
-/// Bending down, coming up, and steps to a side as far as they go.
+/// Bends down, rises, and steps to the side.
 std::vector<Posture> LiftingMotion(const ActionClips& clips) {
   std::vector<Posture> motion = clips.Sequence({"pick_up", "side_steps"});
   const auto aside = [start_m = motion[0].position_m[0].x()](const Posture& posture) {
@@ -93,8 +93,8 @@ Grip PlaceBox(const std::vector<Posture>& motion) {
   return grip;
 }
 
-/// A wall of light boxes at arm's length before who stands so, wider than the shoulders and as
-/// high: fists reach its upper half, feet its lower.
+/// A wall of light boxes at arm's length in front of a standing person, shoulder-high and wider
+/// than the shoulders: fists reach its upper half, feet its lower half.
 std::vector<int> BuildWall(SceneSimulation& simulation, const Posture& standing) {
   constexpr double kEdge_m = 0.26, kBefore_m = 0.42;
   const Vector3d chest = standing[Joint::kShoulderCenter];
@@ -191,10 +191,10 @@ SceneResult CarryABox(const ActionClips& clips, uint64_t seed) {
   CarriedBox carried{grip.box.position_m};
   for (int f = 0; f < static_cast<int>(motion.size()); ++f) {
     Posture body = motion[static_cast<size_t>(f)];
-    // Open hands beside the box, then 8 cm into it: friction carries what the overlap presses.
+    // Hands beside the box, then 8 cm into it: the overlap gives the pressure for friction.
     const double half = half_width + 0.18 - 0.12 * Blend(f, grip.lowest - 20, grip.lowest - 4) -
                         0.12 * Blend(f, grip.lowest - 4, grip.lowest + 4);
-    // Where the box is wanted from the chest: where it stands, then before the belly.
+    // Target of the box relative to the chest: its initial place, then in front of the belly.
     const double up = Blend(f, grip.lowest + kPause, grip.lowest + kPause + 40);
     const Vector3d from_chest = (1.0 - up) * (grip.box.position_m - chest_low) + up * kCarried_m;
     const Vector3d chest = f < grip.lowest ? chest_low : body[Joint::kShoulderCenter];

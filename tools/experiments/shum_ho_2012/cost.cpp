@@ -48,13 +48,13 @@ Cost MeasureCost(const std::vector<Posture>& motion, int people, physics::Contro
 /// The result of an endurance run.
 struct Endurance {
   int64_t frames = 0, lost = 0;
-  int rescued = 0;  // how often the world had to put it back because it was not finite
+  int rescued = 0;  // resets by the world because the state was not finite
   double farthest_m = 0.0, fastest_m_s = 0.0, deepest_m = 0.0;
 };
 
-/// Random clips at random places, pushes of up to 100 Ns on the trunk, joints and whole frames that
-/// are missing or absurd. `lost` counts the frames after a second of good targets in which the
-/// character is not within 25 cm of them.
+/// Random clips at random places, pushes of up to 100 Ns on the trunk, missing and absurd joints
+/// and frames. `lost` counts the frames after a second of good targets in which the character is
+/// not within 25 cm of them.
 class EnduranceRun {
  public:
   EnduranceRun(const Posture& first, uint64_t seed) : random_(seed), before_(first) {
@@ -83,7 +83,8 @@ class EnduranceRun {
     ++good_;
     if (luck > 0.98) Push();
     if (luck < -0.94) Corrupt(target, luck > -0.96);
-    const bool dropped = luck > 0.9 && luck < 0.94;  // no frame came: twice the time passes
+    const bool dropped =
+        luck > 0.9 && luck < 0.94;  // no frame arrives: the next step is twice as long
     const double dt_s = dropped ? 2 * kFrame_s : kFrame_s;
     world_.SetTarget(person_, target);
     world_.Step(dt_s);
@@ -92,7 +93,7 @@ class EnduranceRun {
 
   void Push() {
     const size_t joint = Pick(recon::kJointCount);
-    // Impulse of a shove on the trunk; a limb of a kilogram gets that of a ball.
+    // Impulse of a shove for the trunk, of a ball for a limb of a kilogram.
     const double most_ns = joint <= 4 || joint % 4 == 0 ? 60.0 : 6.0;
     Vector3d impulse_ns;
     for (double& v : impulse_ns) v = most_ns * Draw();

@@ -20,7 +20,8 @@ using recon::Joint;
 using recon::kJointCount;
 using recon::Posture;
 
-/// Joints' sum of squared distances between `filtered` and `observed` shifted by `shift` frames.
+/// Sum over the joints of squared distances between `filtered` and `observed` shifted by `shift`
+/// frames.
 double MisfitAt(double shift, const std::vector<SparsePosture>& observed,
                 const std::vector<SparsePosture>& filtered) {
   const auto whole = static_cast<std::ptrdiff_t>(std::floor(shift));
@@ -38,7 +39,7 @@ double MisfitAt(double shift, const std::vector<SparsePosture>& observed,
   return sum;
 }
 
-/// Delay in frames: the shift of the unfiltered motion that fits the filtered best.
+/// Delay in frames: the shift of the unfiltered motion that fits the filtered motion best.
 double Delay(const std::vector<SparsePosture>& observed,
              const std::vector<SparsePosture>& filtered) {
   double best = std::numeric_limits<double>::infinity(), delay = 0.0;
@@ -51,7 +52,7 @@ double Delay(const std::vector<SparsePosture>& observed,
   return delay;
 }
 
-/// Postures for the filter from what a sensor gave: joints not seen are not numbers.
+/// Sensor postures as input of the filter: unseen joints are NaN.
 class Targets {
  public:
   explicit Targets(const std::vector<SparsePosture>& seen);
@@ -63,8 +64,8 @@ class Targets {
   std::vector<Posture> postures_;
 };
 
-/// Joints that the sensor has no name for are put where they must be: the centre of the hips
-/// between them, wrists and ankles most of the way from elbow to hand and from knee to foot.
+/// Adds joints that the sensor lacks: the hip centre between the hips, wrists and ankles on the way
+/// from elbow to hand and from knee to foot.
 void FillUnnamed(const recon::JointArray<bool>& named, Posture& target) {
   constexpr double kMostOfTheWay = 0.75;  // share of a step
   if (!named[0]) {
@@ -108,8 +109,7 @@ recon::BoneLengths Targets::MedianLengths() const {
   return lengths;
 }
 
-/// How far pinned feet drift from where they were pinned, and how well pins distinguish standing
-/// feet from moving ones.
+/// Drift of pinned feet, and how well pins distinguish standing feet from moving ones.
 class FootMeter {
  public:
   void AddFrame(const physics::FilteredPosture& out, const FilterCase& c, size_t f) {
@@ -135,7 +135,7 @@ class FootMeter {
     if (f == 0 || !c.floor) return;
     const SparsePosture &now = c.tracks.truth[f], &before = c.tracks.truth[f - 1];
     if (!now.present[joint] || !before.present[joint]) return;
-    // True feet, of people who stand on their soles: what is in between is neither.
+    // Speeds of true feet that stand and that move; speeds in between count as neither.
     constexpr double kStands_m_s = 0.05, kMoves_m_s = 0.5, kLow_m = 0.12;
     const double speed = (now.position_m[joint] - before.position_m[joint]).norm() /
                          (c.tracks.time_s[f] - c.tracks.time_s[f - 1]);

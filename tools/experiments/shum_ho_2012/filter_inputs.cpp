@@ -27,8 +27,8 @@ SparsePosture Whole(const Posture& posture) {
   return whole;
 }
 
-/// Sensor noise: half white, half wandering (correlation 0.8 from frame to frame), and in one frame
-/// of a hundred a joint 10 cm off.
+/// Sensor noise: half white, half with a correlation of 0.8 from frame to frame; in one frame of a
+/// hundred a joint is 10 cm off.
 FilterCase Noisy(const std::vector<Posture>& truth, double sigma_m, uint64_t seed) {
   FilterCase c;
   c.floor = Eigen::Vector4d(0.0, 1.0, 0.0, 0.0);
@@ -61,7 +61,7 @@ FilterData Authored(const ActionClips& clips, double sigma_cm, uint64_t seed) {
   return data;
 }
 
-/// Recordings beside their truth; every `stride`-th, and of those what lasts a second.
+/// Recordings with their truth: every `stride`-th, if it lasts a second.
 FilterData Recorded(const std::string& name, const std::vector<RecordedPair>& pairs, size_t stride,
                     const PairOptions& how) {
   constexpr size_t kLeastFrames = 30;
@@ -86,8 +86,8 @@ double MeanStep_m(const SparsePosture& from, const SparsePosture& to) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/// ITOP's frames carry no times, and gaps are not marked. A person's joints move 3-5 cm from one to
-/// the next, joints' mean: about 10 Hz; where they jump, something was left out or is someone else.
+/// ITOP's frames have no times and unmarked gaps. Joints move 3-5 cm between frames on average:
+/// about 10 Hz. At jumps, frames are missing or the person changes.
 FilterData InRuns(const FilterData& whole) {
   constexpr double kJump_m = 0.15, kFrame_s = 0.1;
   constexpr size_t kLeastFrames = 15;

@@ -8,20 +8,20 @@
 
 namespace ossa::tools {
 
-/// One performance as a sensor saw it, 30 Hz or so, beside its truth.
+/// One sequence as observed by a sensor at about 30 Hz, and its truth.
 struct FilterCase {
   PairedTracks tracks;
   std::optional<Eigen::Vector4d> floor;
 };
 
-/// Performances of one kind: a row of the filter table.
+/// Sequences of one kind: a row of the filter table.
 struct FilterData {
   std::string name;
   std::vector<FilterCase> cases;
 };
 
-/// Authored motion with noise; the dev recordings of real sensors under --shared, all that have
-/// truth; rendered scenes as the forest sees them. `note` is added to what the table says.
+/// Authored motion with noise; the development recordings of real sensors with truth under
+/// --shared; rendered scenes observed by the forest. Appends to `note`.
 std::vector<FilterData> MakeFilterData(ExperimentContext& context, const ActionClips& clips,
                                        std::string& note);
 

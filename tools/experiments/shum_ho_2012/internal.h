@@ -11,14 +11,14 @@
 
 namespace ossa::tools {
 
-/// Authored clips by action; postures of the standard body, feet on y = 0, facing +z.
+/// Authored motion by action: postures of the standard body, metres, feet on y = 0, facing +z.
 class ActionClips {
  public:
   explicit ActionClips(uint64_t seed);
   /// The first clip of an action, e.g. "walk".
   const std::vector<recon::Posture>& Get(const std::string& action) const;
   std::vector<std::string> Actions() const;
-  /// Actions one after the other, each starting where the last ended, joined over a third of a
+  /// Actions in sequence; each starts where the last one ended and is blended in over a third of a
   /// second.
   std::vector<recon::Posture> Sequence(const std::vector<std::string>& actions) const;
 
@@ -26,19 +26,20 @@ class ActionClips {
   std::map<std::string, std::vector<recon::Posture>> clips_;
 };
 
-/// A scene while it is played: the world, its pictures and what was seen of it.
+/// A running scene: the physical world, its pictures and measures.
 class SceneSimulation {
  public:
-  /// `draws`: false: no pictures are made.
+  /// `draws`: whether pictures are made.
   SceneSimulation(uint64_t seed, const SceneView& view, bool draws = true);
 
   physics::World world;
   int AddPerson(const recon::Posture& start, const physics::CharacterOptions& options = {});
-  /// One 1/30 s frame: targets to the characters, a step, every second frame a picture.
+  /// Advances by a frame of 1/30 s: sets the characters' targets, steps the world, draws every
+  /// second frame.
   void Advance(const std::vector<recon::Posture>& targets, const std::string& caption);
 
-  /// Did an object touch one of the person's bones (by their end joints; all if none are named) in
-  /// the last frame? `object` of -1: any.
+  /// True if an object touched one of the person's bones in the last frame. `bones`: end joints of
+  /// bones; empty: all. `object` -1: any.
   bool IsStruck(int person, const std::vector<size_t>& bones, int object = -1) const;
 
   int frames() const { return frames_; }
@@ -75,26 +76,26 @@ SceneResult MeetBalls(const ActionClips& clips, uint64_t seed);
 SceneResult Dodge(const ActionClips& clips, uint64_t seed);
 SceneResult ThrowBoxes(const ActionClips& clips, uint64_t seed);
 
-/// Contact depth, cost: the numbers that every scene shares.
+/// Adds the numbers and pictures that all scenes share: contact depth, processor time.
 void AddCommonNumbers(const SceneSimulation& simulation, SceneResult& result);
 std::string Text(double value, int digits, const std::string& unit);
 
-/// Settings of the studies below, beside the motions of rendered scenes (ReadMotions()).
+/// Settings of the studies below, except the motions of rendered scenes (ReadMotions()).
 struct ShumHoSettings {
-  bool rendered = true;  // the filter on rendered scenes, too
+  bool rendered = true;  // also filters rendered scenes
   int rendered_frames = 0;
   std::string observer;
-  double filter_stride = 0.0;         // every which performance of UI-PRMD is filtered
+  double filter_stride = 0.0;         // every n-th sequence of UI-PRMD is filtered
   double endurance_hours = 0.0;       // of simulated time
   double database_threshold_m = 0.0;  // recon::DatabaseOptions::threshold_m
 };
 ShumHoSettings ReadShumHoSettings(Parameters& parameters);
 
-/// The character as a filter on noisy authored motion and, when there, on real recordings.
+/// The character as a filter of noisy authored motion and, if available, of real recordings.
 Table FilterStudy(ExperimentContext& context, const ActionClips& clips);
 /// Processor time of a frame: one person, six, one among many boxes.
 Table CostStudy(ExperimentContext& context, const ActionClips& clips);
-/// Fig. 5: error of the matched posture and time of a query against the dimensions kept by PCA.
+/// Fig. 5: error of the matched posture and time of a query against the number of PCA dimensions.
 Table DimensionStudy(ExperimentContext& context);
 
 }  // namespace ossa::tools

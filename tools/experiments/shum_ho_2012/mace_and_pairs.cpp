@@ -20,7 +20,7 @@ using recon::Posture;
 
 constexpr double kMaceLength_m = 0.35;
 
-/// Hangs a mace on the right hand, free to turn about it; returns the object.
+/// Attaches a mace to the right hand by a ball joint; returns the object's index.
 int AddMace(SceneSimulation& simulation, int person) {
   const Vector3d hand = simulation.world.StateOf(person).posture[Joint::kHandRight];
   ObjectOptions mace;
@@ -33,7 +33,7 @@ int AddMace(SceneSimulation& simulation, int person) {
   return index;
 }
 
-/// Where the hand goes, without boxes, with or without the mace.
+/// Path of the hand without boxes, with or without the mace, metres.
 std::vector<Vector3d> HandPath(const std::vector<Posture>& motion, uint64_t seed, bool armed) {
   SceneSimulation simulation(seed, {}, false);
   const int person = simulation.AddPerson(motion[0]);
@@ -46,7 +46,7 @@ std::vector<Vector3d> HandPath(const std::vector<Posture>& motion, uint64_t seed
   return path;
 }
 
-/// Stacks of light boxes half around who stands so, at what an arm and a mace reach.
+/// Stacks light boxes in a half circle around a standing person, within reach of arm and mace.
 std::vector<Vector3d> StackBoxes(SceneSimulation& simulation, const Posture& standing) {
   constexpr double kEdge_m = 0.22, kReach_m = 0.85;
   constexpr int kLayers = 4, kStacks = 5;
@@ -68,11 +68,12 @@ std::vector<Vector3d> StackBoxes(SceneSimulation& simulation, const Posture& sta
   return start;
 }
 
-/// The hand that goes fastest forward throws, past its highest: what leaves a hand that still rises
-/// flies over people.
+/// The throwing hand: the one that moves forward fastest after its highest point. Objects released
+/// from a rising hand would fly over the other person.
 struct Swing {
   Joint hand = Joint::kHandRight;
-  Vector3d at_m = Vector3d::Zero(), along_m = Vector3d::UnitZ();  // then: where, and where to
+  Vector3d at_m = Vector3d::Zero(),
+           along_m = Vector3d::UnitZ();  // position and direction at that frame
 };
 
 Swing FindSwing(const std::vector<Posture>& motion) {
@@ -93,7 +94,7 @@ double Bearing_rad(const Vector3d& v) { return std::atan2(v.x(), v.z()); }
 
 /// Rotates the motion so that the swung object flies towards the mark.
 std::vector<Posture> AimAt(std::vector<Posture> motion, const Swing& swing, const Vector3d& mark) {
-  constexpr int kTimes = 20;  // the hand moves as one turns
+  constexpr int kTimes = 20;  // iterations: turning moves the hand
   const Vector3d hips = motion[0][Joint::kHipCenter];
   Eigen::AngleAxisd turn(0.0, Vector3d::UnitY());
   for (int k = 0; k < kTimes; ++k) {
@@ -106,7 +107,7 @@ std::vector<Posture> AimAt(std::vector<Posture> motion, const Swing& swing, cons
   return motion;
 }
 
-/// How far it is from the person's skin to a box, but for what holds it; below 0 within.
+/// Distance from the skin to a box, except for the holding arm, metres; negative inside.
 double Clearance_m(const SceneSimulation& simulation, int box, const Posture& body, Joint holding) {
   constexpr int kPoints = 9;  // along a bone: 6 cm apart on the longest
   const physics::Segments segments =
@@ -124,8 +125,7 @@ double Clearance_m(const SceneSimulation& simulation, int box, const Posture& bo
   return nearest;
 }
 
-/// Gives the person a box that sits on the hand, beyond its fingers and clear of the body: who
-/// takes one holds it so.
+/// Puts a box on the hand, beyond the fingers and clear of the body, and makes the person hold it.
 int TakeBox(SceneSimulation& simulation, int person, Joint hand) {
   constexpr double kEdge_m = 0.16, kStep_m = 0.01, kFarthest_m = 0.3;
   const Posture now = simulation.world.StateOf(person).posture;
@@ -161,7 +161,7 @@ double ClosestPass_m(const physics::ObjectState& flying, const Posture& body) {
   return nearest;
 }
 
-/// When to let go: what is thrown would strike the other, and a moment later would not so well.
+/// Decides when to release: when the predicted miss distance to the other person is smallest.
 class Aim {
  public:
   bool IsNow(const physics::ObjectState& held, const Posture& other) {
@@ -184,9 +184,9 @@ struct Throw {
   bool is_thrown = false;
   Vector3d from_m = Vector3d::Zero();  // where it was let go
   int hits = 0;                        // frames in which it struck the other
-  double flew_m = 0.0;                 // until it did
+  double flew_m = 0.0;                 // distance flown until then
 
-  /// Within a frame: a swing of 10 m/s passes its mark in less.
+  /// Called in substeps, because a swing of 10 m/s passes the release point within a frame.
   void ReleaseIfAimed(SceneSimulation& simulation, int target) {
     const physics::ObjectState held = simulation.world.ObjectOf(box);
     if (is_thrown || !aim.IsNow(held, simulation.world.StateOf(target).posture)) return;

@@ -46,7 +46,7 @@ PostureVector Query(const Posture& in_camera) {
       recon::Retargeted(recon::Normalised(in_camera, placement), recon::StandardBoneLengths()));
 }
 
-/// 600 frames as in the paper: Kinect postures when there are recordings, else authored motion of
+/// 600 frames as in the paper: Kinect postures if there are recordings, else authored motion of
 /// another seed with 2 cm of noise on every joint.
 std::vector<PostureVector> Queries(const ExperimentContext& context) {
   constexpr size_t kFrames = 600;  // Shum & Ho 2012, section 8.4

@@ -19,15 +19,15 @@ struct SceneView {
   int height = 240;
 };
 
-/// What is drawn over the world: the skeletons that the characters were asked to follow, as the
-/// paper's yellow lines, and a caption.
+/// Drawn over the world: the target skeletons of the characters (the paper's yellow lines) and a
+/// caption.
 struct SceneOverlay {
   std::vector<recon::Posture> targets;
   std::string caption;
 };
 
 /// A picture of a world by the painter's algorithm: characters as rounded limbs, objects, their
-/// shadows and a floor grid. For people to look at; nothing is measured on it.
+/// shadows and a floor grid. For inspection only.
 Picture Paint(const physics::World& world, const SceneView& view, const SceneOverlay& overlay);
 
 }  // namespace ossa::tools

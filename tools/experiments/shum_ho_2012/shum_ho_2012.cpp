@@ -38,7 +38,7 @@ constexpr std::array<Scene, 6> kScenes = {{
 constexpr int kPictureMs = 67;  // every second 30 Hz frame
 constexpr int kStripPictures = 6;
 
-// Of parameters, by hand: a month; what tells postures apart at all.
+// Bounds of parameters, by hand: a month; the smallest distance between different postures.
 constexpr double kMost_hours = 720.0;  // hours
 constexpr double kLeastThreshold_m = 0.01, kMostThreshold_m = 10.0;
 

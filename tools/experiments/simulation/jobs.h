@@ -4,11 +4,11 @@
 
 namespace ossa::tools {
 
-/// Runs job(0) to job(count - 1) on so many threads, each once, in no promised order. The first
-/// failure is thrown when all threads have ended.
+/// Runs job(0) to job(count - 1), each once and in any order, on `threads` threads. After all
+/// threads have ended, the first exception is thrown again.
 void RunJobs(size_t count, int threads, const std::function<void(size_t)>& job);
 
-/// Processor time of this thread: what others do on the machine does not count.
+/// Processor time of this thread, milliseconds; independent of other load.
 double ProcessorTime_ms();
 
 }  // namespace ossa::tools

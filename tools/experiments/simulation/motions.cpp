@@ -16,14 +16,15 @@ namespace {
 // swordplay, washing, turning dances.
 const std::vector<std::string> kHeldOutClips = {"02_05", "02_06", "02_07", "02_08", "02_09",
                                                 "02_10", "60_01", "60_05", "60_10", "60_14"};
-// Two CMU subjects, and the actor of another corpus, whose bones a file beside it names.
+// Two CMU subjects, and the subject of another corpus with a mapping file beside it.
 const std::vector<std::string> kOfCmu = {"02_05", "02_07", "02_08", "02_10",
                                          "60_06", "60_11", "60_12"};
 const std::vector<std::string> kOfBandai = {
     "dataset-1_byebye_tired_001", "dataset-1_kick_normal_001", "dataset-1_slash_normal_001"};
 // Constants: chosen by hand, where nothing else is said.
 
-constexpr uint64_t kOtherMovers = 7919;  // added to the seed: not the shipped database's movers
+constexpr uint64_t kOtherMovers =
+    7919;  // added to the seed, for other movers than the shipped database's
 
 bool StaysInView(const recon::MotionClip& clip, size_t frames) {
   constexpr double kRoom_m = 1.4;
@@ -36,7 +37,7 @@ bool StaysInView(const recon::MotionClip& clip, size_t frames) {
   return std::max(high.x() - low.x(), high.z() - low.z()) < kRoom_m;
 }
 
-/// The named clips of a folder, those that last.
+/// The named clips of a folder that are long enough.
 std::vector<recon::MotionClip> Named(const std::filesystem::path& folder,
                                      const std::vector<std::string>& names,
                                      const recon::MocapOptions& options, int frames) {
@@ -73,7 +74,7 @@ StudyMotion TenPerformances(ExperimentContext& context, int frames) {
     return StudyMotions(context, kOfCmu.size() + kOfBandai.size(), frames);
   }
   StudyMotion motion;
-  for (size_t i = 0; i < 4; ++i) {  // by turns of the three people
+  for (size_t i = 0; i < 4; ++i) {  // alternates between the three people
     motion.clips.push_back(std::move(of_cmu[i]));
     if (i < 3) motion.clips.push_back(std::move(of_cmu[4 + i]));
     if (i < 3) motion.clips.push_back(std::move(others[i]));

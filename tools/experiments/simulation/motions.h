@@ -15,18 +15,18 @@ struct StudyMotion {
 /// Reads the parameters of StudyMotions() and TenPerformances().
 void ReadMotions(ExperimentContext& context);
 
-/// Motions for a study that no shipped database or model was made from where possible: mocap under
-/// --shared (parameters `motion`, `only`), else ossa's authored clips with movers of another seed
-/// than the shipped database's. `count` clips that last `frames` frames and stay in view, evenly
-/// spread over those there are.
+/// Motions for a study, if possible not used for any shipped database or model: mocap under
+/// --shared (parameters `motion`, `only`), else ossa's authored clips with another seed than the
+/// shipped database's. `count` clips, evenly chosen among those that last `frames` frames and stay
+/// in view.
 StudyMotion StudyMotions(ExperimentContext& context, size_t count, int frames);
 
-/// Ten performances, no two alike, of three people that nothing shipped was made from, in an order
-/// in which neighbours are different people; where --shared lacks them or the study names a
-/// `motion` or `only`, what StudyMotions has.
+/// Ten different clips of three people who are not in any shipped model's data, ordered so that
+/// neighbours are different people. If --shared lacks them, or the study sets `motion` or `only`,
+/// the clips of StudyMotions().
 StudyMotion TenPerformances(ExperimentContext& context, int frames);
 
-/// Authored clips of the given actions, `variations` movers each, with a seed of the study's own.
+/// Authored clips of the given actions with `variations` movers each, from the study's own seed.
 std::vector<recon::MotionClip> AuthoredMotions(const ExperimentContext& context,
                                                const std::vector<std::string>& actions,
                                                int variations);

@@ -40,8 +40,8 @@ Eigen::Isometry3d CameraPlace(const SequenceOptions& options) {
   return LookAt(eye, {0, 0.9, 0});
 }
 
-// A seat with its back rest towards the sensor's side, half a metre before the person: it hides
-// the legs and, seen from the side, an arm.
+// A seat with its backrest towards the sensor, half a metre in front of the person: it hides the
+// legs and, seen from the side, an arm.
 depth::TriangleMesh CarSeat() {
   depth::TriangleMesh seat = depth::MakeSofa(0.62f, 0.60f, 0.45f);
   Eigen::Affine3f place = Eigen::Affine3f::Identity();
@@ -172,8 +172,8 @@ SequenceFrame SequenceRenderer::RenderFrame(size_t index) {
   return frame;
 }
 
-// Of the tracker's bodies the one that is the person: nearest to the true one. Nobody found gives
-// a body without joints, so that methods must bridge the frame.
+// The tracker's body nearest to the true one. If there is none, a body without joints, so that
+// methods must bridge the frame.
 recon::SkeletonFrame FindNearestBody(const recon::SkeletonFrame& tracked,
                                      const recon::SkeletonFrame& truth) {
   constexpr double kReach_m = 0.6;
@@ -283,7 +283,7 @@ tracker::Tracker MakeObserver(const ExperimentContext& context, const ObserverFi
   return tracker::Tracker(options);
 }
 
-// The cache keeps a recording as the three sequences' text, one behind the other.
+// A cached recording is the concatenated text of its three sequences.
 std::string FormatRecording(const RecordedPair& pair) {
   std::string text =
       FormatSequence(pair.observed).append(kSequenceEnd).append(FormatSequence(pair.refined));

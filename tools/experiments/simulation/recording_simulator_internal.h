@@ -17,15 +17,14 @@ struct ObserverFiles {
 /// `model`: a custom forest, which is not refined; empty: the shipped one.
 ObserverFiles FindObserverFiles(const std::filesystem::path& model);
 
-/// Until the person is found there is nothing to reconstruct, and methods answer with a posture in
-/// no place: the recording begins with the first frame that has half of the joints. It is empty
-/// where there is none.
+/// Removes the frames before the first one with half of the joints; all of them if there is none.
+/// Before the person is found, methods cannot reconstruct anything.
 void BeginWhenFound(RecordedPair& pair);
 
-/// The Kinect SDK as it was seen to fail (Shum 2013 sec. IV; Obdrzalek 2012): joints that are seen
-/// are a centimetre or two off, slowly drifting; hidden ones are half the time guessed (inferred,
-/// wandering from where they were last seen relative to the body), half the time put on what hides
-/// them and called tracked.
+/// A model of the Kinect SDK's failures (Shum 2013 sec. IV; Obdrzalek 2012). Visible joints have a
+/// slowly drifting error of one or two centimetres. Half of the hidden joints are inferred and
+/// drift from where they were last seen relative to the body; the other half lie on the occluder
+/// and are reported as tracked.
 class SimulatedSdk {
  public:
   explicit SimulatedSdk(uint64_t seed) : random_(seed, 4711) {}
@@ -38,7 +37,7 @@ class SimulatedSdk {
     Eigen::Vector3d from_hips_m = Eigen::Vector3d::Zero();  // where it was last seen
     bool seen_once = false;
     bool hidden = false;
-    bool grabbed = false;  // by the thing that hides it
+    bool grabbed = false;  // lies on the occluder
   };
 
   Eigen::Vector3d Noise(double deviation_m);

@@ -12,13 +12,12 @@ Eigen::Vector3d SimulatedSdk::Noise(double deviation_m) {
 
 Eigen::Vector3d SimulatedSdk::Hidden(const SequenceFrame& frame, const Eigen::Vector3d& true_m,
                                      const Eigen::Vector3d& hips_m, JointMemory& memory) {
-  constexpr double kGrabbedShare =
-      0.5;                            // share of the occluded joints that jump to what hides them
-  constexpr double kWander_m = 0.02;  // a frame
-  // And back towards where it was: 8 cm an axis in the long run; factor a frame
+  constexpr double kGrabbedShare = 0.5;  // share of the occluded joints that jump to the occluder
+  constexpr double kWander_m = 0.02;     // a frame
+  // Decay towards the old position: 8 cm per axis in the long run; factor per frame
   constexpr double kHome = 0.97;
-  constexpr double kFlesh_m = 0.05;     // how deep the SDK puts a joint behind the surface it sees
-  constexpr double kSameDepth_m = 0.1;  // nearer than this the surface is the joint's own
+  constexpr double kFlesh_m = 0.05;     // depth of a joint behind the visible surface
+  constexpr double kSameDepth_m = 0.1;  // a nearer surface is the joint's own
   if (!memory.hidden) {
     memory.hidden = true;
     memory.grabbed = random_.Chance(kGrabbedShare);
