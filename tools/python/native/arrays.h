@@ -11,13 +11,13 @@
 #include "depth/image/depth_frame.h"
 #include "recon/posture.h"
 
-/// Between NumPy's arrays and ossa's values. What goes out owns its memory; what comes in is looked
-/// at where it lies.
+/// Converts between NumPy arrays and ossa's values. Returned arrays own their memory; input arrays
+/// are viewed without a copy.
 namespace ossa::python {
 
 namespace py = pybind11;
 
-/// The values as an array of this shape, row-major, without a copy.
+/// The values as a row-major array of this shape; moved, not copied.
 template <typename T>
 py::array_t<T> ToArray(std::vector<T> values, std::vector<py::ssize_t> shape) {
   auto owner = std::make_unique<std::vector<T>>(std::move(values));
@@ -27,17 +27,17 @@ py::array_t<T> ToArray(std::vector<T> values, std::vector<py::ssize_t> shape) {
   return py::array_t<T>(std::move(shape), data, capsule);
 }
 
-/// A depth image where it lies in memory: uint16 [height, width] of this machine's byte order, rows
-/// of neighbouring pixels (a part cut out of a larger image is one). Throws InputError that says
-/// what else it is. The array must outlive the view.
+/// A view of a depth image: uint16 [height, width] in native byte order, pixels of a row contiguous
+/// (a slice of a larger image is allowed). Throws InputError that names the actual type and shape.
+/// The array must outlive the view.
 depth::DepthView ToView(const py::array& depth_mm);
 
-/// Pixels to work on, bool or uint8 [height, width] like the image's: where it is not 0 and the
-/// image has a reading. None: all readings. Row-major indices, ascending.
+/// Row-major indices, ascending, of the pixels that have a reading and whose mask, bool or uint8
+/// [height, width], is not 0. None: all pixels with a reading.
 std::vector<int32_t> ListPixels(const depth::DepthView& depth, const py::object& mask);
 
 /// (fx, fy, cx, cy, width, height) of ossa.Camera for an image of the view's size. Throws
-/// InputError for a camera that cannot be.
+/// InputError for an invalid camera.
 depth::Camera ToCamera(const py::tuple& camera, const depth::DepthView& depth);
 py::tuple ToTuple(const depth::Camera& camera);
 

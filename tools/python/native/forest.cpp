@@ -23,7 +23,7 @@ forest::ForestModel ReadForest(const std::string& path) {
   return forest::ReadForestModel(file, forest::ModelUse::kRunOnly);
 }
 
-/// What a forest says of one image.
+/// The output of a forest for one image.
 struct ForestOutput {
   std::vector<uint8_t> parts;
   std::vector<float> probabilities;

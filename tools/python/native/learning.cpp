@@ -57,7 +57,7 @@ std::string Evaluate(const std::string& path, const std::string& dataset, int64_
   });
 }
 
-// The number of pairs.
+// Returns the number of pairs.
 size_t Learn(const std::vector<std::string>& observed, const std::vector<std::string>& truth,
              const std::string& out, const py::dict& given) {
   recon::LearnOptions options;

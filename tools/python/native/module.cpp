@@ -26,7 +26,7 @@ py::tuple NamesOf(const Names& names) {
   return py::tuple(list);
 }
 
-// What a caller gave is wrong, or a file is: InputError. All else is pybind11's to translate.
+// Translates errors in arguments and files to InputError; pybind11 translates the others.
 void AddErrors(py::module_& module) {
   static const py::object input_error =
       py::exception<InputError>(module, "InputError", PyExc_ValueError);
@@ -62,7 +62,7 @@ py::tuple MethodTable() {
   return py::tuple(table);
 }
 
-// The values of a dict under the names of an Options struct's members, those that are there.
+// Sets the members of an Options struct that the dict contains.
 struct Reader {
   const py::dict& given;
   template <typename T>
@@ -71,7 +71,7 @@ struct Reader {
   }
 };
 
-// Of a thread that is made to exit: it stays in the handler.
+// A thread that Python makes exit stays in this handler.
 [[noreturn]] void WaitForTheEnd() {
   for (;;) pause();
 }
@@ -81,7 +81,7 @@ struct Reader {
 GilReleased::~GilReleased() {
   try {
     PyEval_RestoreThread(state_);
-  } catch (...) {  // the thread's exit: Python throws nothing else
+  } catch (...) {  // the thread's exit: Python throws nothing else here
     WaitForTheEnd();
   }
 }
@@ -89,7 +89,7 @@ GilReleased::~GilReleased() {
 bool CheckSignals() {
   try {
     const py::gil_scoped_acquire gil;
-    // A signal is told of once: who asks again after it must not hear that all is well.
+    // Python reports a signal once: later calls must return false, too.
     return PyErr_Occurred() == nullptr && PyErr_CheckSignals() == 0;
   } catch (...) {  // likewise
     WaitForTheEnd();

@@ -9,9 +9,9 @@
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/model_set.h"
 
-/// The extension module ossa._native: what the package's Python files are written over. Its
-/// functions take and give plain arrays, numbers, texts and dicts; the Python files check types,
-/// name things and explain them.
+/// The extension module ossa._native on which the package's Python files are built. Its functions
+/// take and return plain arrays, numbers, strings and dicts; the Python files check types and have
+/// the documentation.
 namespace ossa::python {
 
 namespace py = pybind11;
@@ -22,9 +22,9 @@ void AddForest(py::module_& module);
 void AddSkeletons(py::module_& module);
 void AddLearning(py::module_& module);
 
-/// The GIL let go of for as long as this lives. Once the interpreter ends, a daemon thread cannot
-/// have it back: Python makes it exit where it asks, through frames of C++ that cannot be left so,
-/// and the process would abort. It waits for the process's end instead, as from Python 3.14 on.
+/// Releases the GIL during its lifetime. A daemon thread that requests the GIL while the
+/// interpreter ends is made to exit by Python, through C++ frames, which aborts the process. Such a
+/// thread waits for the process's end instead, as in Python 3.14.
 class GilReleased {
  public:
   GilReleased() : state_(PyEval_SaveThread()) {}
@@ -36,18 +36,18 @@ class GilReleased {
   PyThreadState* state_;
 };
 
-/// Whether a long run goes on: false once Python has a signal to act on (Ctrl-C). Called without
-/// the GIL, within Interruptible.
+/// False once Python has a pending signal (Ctrl-C): a long run then stops. Called without the GIL,
+/// within Interruptible().
 bool CheckSignals();
-/// The same, and whether the Python function `ask` says so, which is called without arguments. What
-/// it raises ends the run, too.
+/// The same, and the result of the Python function `ask`, called without arguments. Its exceptions
+/// also end the run.
 bool CheckSignalsAndAsk(PyObject* ask);
-/// Throws what Python raised meanwhile.
+/// Throws the Python exception that was raised meanwhile, if any.
 void ThrowIfInterrupted();
 
-/// What `work` returns, done without the GIL. Where CheckSignals ended it, what Python raised is
-/// thrown, whatever the work returned or threw then: KeyboardInterrupt must not become "no device
-/// found".
+/// Runs `work` without the GIL and returns its result. If CheckSignals() ended it, throws the
+/// Python exception, whatever the work returned or threw: KeyboardInterrupt must not become "no
+/// device found".
 template <typename Work>
 std::invoke_result_t<Work> Interruptible(const Work& work) {
   try {

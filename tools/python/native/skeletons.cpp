@@ -28,10 +28,11 @@ namespace ossa::python {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int8_t kUnsaid = -1;   // by definition: of a state or a visibility that no file said
-constexpr int64_t kNobody = -1;  // by definition: id of a row that stands for an empty frame
+constexpr int8_t kUnsaid = -1;   // by definition: state or visibility that no file contains
+constexpr int64_t kNobody = -1;  // by definition: id of the row of a frame without bodies
 
-/// The columns of a Sequence: a row for each body of each frame, one for a frame without bodies.
+/// The columns of a Sequence: one row per body of each frame, and one row for a frame without
+/// bodies.
 struct Columns {
   std::vector<int64_t> frames, ids;
   std::vector<double> times, floors, joints, confidence, reliability, orientations, bones_m;
@@ -101,7 +102,7 @@ py::dict ToDict(const recon::SkeletonSequence& sequence) {
 template <typename T>
 using Contiguous = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-/// The rows of a Sequence, as Python checked and laid them out.
+/// The rows of a Sequence, checked and arranged by the Python files.
 class Rows {
  public:
   explicit Rows(const py::dict& given)
@@ -220,7 +221,7 @@ void Write(const py::dict& given, const std::string& path, const py::dict& how,
   writer.Finish();
 }
 
-// Of a correction the shipped one where the recording is of a sensor whose errors are known.
+// The shipped correction if the recording comes from a sensor with known errors.
 std::string LearnedFile(const std::string& named, const recon::SkeletonSequence& sequence,
                         const recon::MethodInfo& method) {
   if (named == "none" || method.learned == recon::Reads::kNothing) return {};

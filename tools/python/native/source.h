@@ -16,7 +16,7 @@ namespace ossa::python {
 
 using Notes = std::vector<std::pair<std::string, std::string>>;  // "info" or "warning", text
 
-/// Readers tell of what they assume while the GIL is released, from whichever thread.
+/// Collects the notes of readers, from any thread, while the GIL is released.
 class NoteBook {
  public:
   void Add(depth::NoteKind kind, const std::string& text);
@@ -30,13 +30,13 @@ class NoteBook {
 /// "frame", "timeout", "end" or "disconnected".
 const char* NameOf(depth::ReadStatus status);
 
-/// A SOURCE that one thread at a time reads; others wait. Whoever reads when another closes it is
-/// told so.
+/// A SOURCE that one thread at a time reads; others wait. A read throws if another thread closes
+/// the source.
 class Source {
  public:
   Source(const std::string& name, const py::dict& given);
 
-  /// The next frame as it was read. Called without the GIL.
+  /// Reads the next frame. Called without the GIL.
   depth::ReadResult Next(int timeout_ms);
   /// (status, depth_mm | None, camera, time_s, dropped)
   py::tuple Read(int timeout_ms);
@@ -50,7 +50,7 @@ class Source {
   std::optional<int64_t> FrameCount() {
     return Locked([](auto& frames) { return frames.frame_count(); });
   }
-  /// Frames to come are of this one, whatever the source says.
+  /// Camera of all further frames, instead of the source's own.
   void TakeCamera(const py::tuple& camera);
   Notes TakeNotes() { return notes_.Take(); }
 
@@ -64,7 +64,7 @@ class Source {
   }
 
   const std::string name_;
-  NoteBook notes_;  // before what writes into it
+  NoteBook notes_;  // declared before its writers
   std::mutex mutex_;
   std::unique_ptr<depth::FrameSource> frames_;
   std::optional<depth::Camera> taken_;

@@ -22,7 +22,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// As ToTuple makes one.
+// Inverse of ToTuple().
 depth::Camera CameraFrom(const py::handle& tuple) {
   const auto c = tuple.cast<std::tuple<double, double, double, double, int, int>>();
   return {std::get<4>(c), std::get<5>(c), std::get<0>(c),
@@ -64,7 +64,7 @@ depth::SourceOptions ReadSourceOptions(const py::dict& given) {
   options.device_wait = milliseconds(static_cast<int64_t>(1000.0 * given["wait_s"].cast<double>()));
   options.keep_waiting = CheckSignals;
   if (given.contains("keep_waiting")) {
-    // Borrowed, for a reference would be let go of where there is no GIL.
+    // Borrowed: an owned reference would be released without the GIL.
     options.keep_waiting = [ask = py::object(given["keep_waiting"]).ptr()] {
       return CheckSignalsAndAsk(ask);
     };

@@ -87,7 +87,7 @@ tracker::TrackerOptions OptionsFrom(const py::dict& given) {
   return options;
 }
 
-// By body id, in the order of the files.
+// Body ids in the order of the files.
 std::map<int, recon::PersonShape> LoadPeople(const std::vector<std::string>& paths,
                                              const recon::BodySurface* surface) {
   if (!paths.empty() && surface == nullptr) {
@@ -99,7 +99,7 @@ std::map<int, recon::PersonShape> LoadPeople(const std::vector<std::string>& pat
   return people;
 }
 
-/// All that was learned, in memory: of any number of trackers.
+/// All models in memory, shared by any number of trackers.
 struct Models {
   tracker::ModelSet set;
   std::string method;
@@ -146,8 +146,8 @@ py::array ComputeVertices(const recon::BodyMesh& mesh, const recon::SurfacePose&
   return python::ToArray(std::move(vertices_m), {count, 3});
 }
 
-// The skin of a body, posed for who asks for it. An object, because a function of its own costs
-// more than the whole rest of a fit.
+// The skin of a body, posed on request. It is an object because creating a function for each body
+// would take longer than the rest of the conversion.
 struct Skin {
   MeshPointer mesh;
   recon::SurfacePose pose;
@@ -183,7 +183,7 @@ py::dict ToDict(const recon::SurfaceFit& fit, const MeshPointer& mesh) {
   return made;
 }
 
-// Corner numbers, int32 [f, 3].
+// Vertex indices, int32 [f, 3].
 py::array_t<int32_t> ToArray(const std::vector<recon::MeshTriangle>& triangles) {
   std::vector<int32_t> corners;
   for (const recon::MeshTriangle& triangle : triangles) {
@@ -192,7 +192,7 @@ py::array_t<int32_t> ToArray(const std::vector<recon::MeshTriangle>& triangles) 
   return python::ToArray(std::move(corners), {static_cast<py::ssize_t>(triangles.size()), 3});
 }
 
-// What a tracked body has beyond a place and an id.
+// The fields of a tracked body besides joints and id.
 void AddSkeleton(const Body& body, bool with_proposals, py::dict& made) {
   recon::JointArray<recon::TrackingState> states;
   recon::JointArray<double> reliability;
@@ -287,7 +287,7 @@ py::dict ToDict(BodyFrame frame, bool with_proposals, const MeshPointer& mesh) {
   return made;
 }
 
-/// A tracker that one thread at a time uses; others wait.
+/// A tracker that one thread at a time may use; others wait.
 class Tracker {
  public:
   Tracker(const py::dict& given, const Models& models) : method_(models.method) {
@@ -309,12 +309,12 @@ class Tracker {
     return ToDict(std::move(bodies), with_proposals_, mesh_);
   }
 
-  /// Of the mesh; none without a fit.
+  /// Triangles of the mesh; None without a fit.
   py::object Faces() const {
     return mesh_ ? py::object(ToArray(mesh_->triangles)) : py::object(py::none());
   }
 
-  /// None until as many images came as the lag has frames.
+  /// None until as many images have arrived as the lag has frames.
   py::object TrackWithLag(const py::array& depth_mm, const py::tuple& camera, double time_s,
                           int turn) {
     std::optional<BodyFrame> bodies;
@@ -323,7 +323,7 @@ class Tracker {
     return OrNone(std::move(bodies));
   }
 
-  /// The next image of a source, tracked where it was read: (status, None or as TrackWithLag,
+  /// Reads and tracks the next image of a source without a copy: (status, None or as TrackWithLag,
   /// time_s, dropped).
   py::tuple TrackNext(Source& source, int timeout_ms, int turn) {
     depth::ReadResult read;
@@ -343,15 +343,15 @@ class Tracker {
                           read.dropped);
   }
 
-  /// None when nothing is held.
+  /// None if no frame is left.
   py::object DrainLag() {
     std::optional<BodyFrame> bodies;
     Locked([&](tracker::Tracker& t) { bodies = t.DrainLag(); });
     return OrNone(std::move(bodies));
   }
 
-  /// Of images that state no camera: (camera, what was found, in words) where it is another than
-  /// was guessed.
+  /// For images without a stated camera: (camera, description) if the estimated camera differs from
+  /// the guess.
   py::object FindCamera(const std::string& source, const py::dict& given) {
     const depth::SourceOptions options = ReadSourceOptions(given);
     const auto finding = Interruptible([&] {
@@ -362,7 +362,7 @@ class Tracker {
     return py::make_tuple(ToTuple(finding->found.camera), tracker::Describe(*finding));
   }
 
-  /// Looks through the beginning of a recording for which way up its camera is.
+  /// Determines from the beginning of a recording which way up its camera is.
   int FindUpright(const std::string& source, const py::dict& given) {
     const depth::SourceOptions options = ReadSourceOptions(given);
     return Interruptible([&] {
@@ -401,7 +401,7 @@ class Tracker {
     return ToDict(std::move(*bodies), with_proposals_, mesh_);
   }
 
-  /// Does `track` with the image where it lies.
+  /// Calls `track` with a view of the image.
   template <typename Track>
   void WithFrame(const py::array& depth_mm, const py::tuple& camera, double time_s, int turn,
                  const Track& track) {
@@ -427,7 +427,7 @@ class Tracker {
   std::mutex mutex_;
   std::string method_;
   bool with_proposals_ = false;
-  std::shared_ptr<const recon::BodyMesh> mesh_;  // where bodies are fitted
+  std::shared_ptr<const recon::BodyMesh> mesh_;  // null without a surface fit
   int64_t index_ = 0;                            // of the next image
   tracker::TrackerOptions options_;
   std::optional<tracker::Tracker> tracker_;
@@ -442,7 +442,7 @@ void AddTracker(py::module_& module) {
       .def_property_readonly("warnings", [](const Models& models) { return models.set.warnings; });
   py::class_<Skin>(module, "Skin")
       .def("vertices", [](const Skin& skin) { return ComputeVertices(*skin.mesh, skin.pose); })
-      // Nothing changes it: dataclasses.asdict and copy.deepcopy may share it.
+      // Immutable: dataclasses.asdict and copy.deepcopy may share it.
       .def(
           "__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
           py::arg("memo"));
