@@ -27,7 +27,7 @@ recon::BoneLengths Checked(recon::BoneLengths lengths) {
 
 /// A joint of trust 0 still follows, slowly: its position was completed by an earlier stage.
 constexpr double kLeastStiffness = 0.3;  // share
-// Constants: chosen by hand, where nothing else is said; thresholds of Lead by a sweep on UI-PRMD
+// Constants: chosen by hand unless stated otherwise; thresholds of Lead by a sweep on UI-PRMD
 // and noisy motion capture.
 
 /// A user constraint pulls the other joints of its chain (sec. 6.1), not vice versa.

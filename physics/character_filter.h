@@ -10,7 +10,7 @@
 
 namespace ossa::physics {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 struct CharacterFilterOptions {
   int substeps = 10;                  // per 1/30 s, [5, 100]

@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Constants: chosen by hand, where no derivation is said.
+// Constants: chosen by hand unless stated otherwise.
 
 // Contacts are implicit springs, stable at any stiffness: a leg pressed down with the largest
 // control force (2 kg x 250 m/s^2) sinks in by 0.1 mm. Damping removes half of an overlap per

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Constants: chosen by hand, where no source is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr double kBound_nm = 200.0;    // approximate strength of ligaments
 constexpr double kReturn_rad_s = 8.0;  // maximum return speed

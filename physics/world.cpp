@@ -19,7 +19,7 @@ void Require(bool good, const std::string& name, double value, const std::string
   }
 }
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kDodgeHold_s = 0.3;

@@ -7,8 +7,8 @@
 
 namespace ossa::recon {
 
-/// 20 joint positions, metres, one per Joint in enum order. The frame (camera space, world, or
-/// normalised) is said by the name of the variable that holds it.
+/// 20 joint positions, metres, one per Joint in enum order. The name of the variable tells the frame
+/// (camera space, world, or normalised).
 struct Posture {
   JointArray<Eigen::Vector3d> position_m;
 

@@ -10,7 +10,7 @@
 
 namespace ossa::recon {
 
-// Constants: Shum 2013 where an equation is said; ours chosen by hand on rendered people (`ossa
+// Constants: Shum 2013 where an equation is stated; ours chosen by hand on rendered people (`ossa
 // experiment shum-2013`). Without another unit they are ratios.
 
 /// Shum et al. 2013, section IV: reliability of each joint of an observed posture.

@@ -29,9 +29,10 @@ std::vector<std::byte> Decompress(std::span<const std::byte> compressed, const s
   // state their content size: larger claims are refused before allocating.
   constexpr uint64_t kMost = uint64_t{1} << 31U;       // bytes; bound
   constexpr uint64_t kMostTimes = uint64_t{1} << 15U;  // derived: 2^17 over 4
-  const uint64_t said = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  const bool is_frame = said != ZSTD_CONTENTSIZE_ERROR;  // else damaged, which is reported below
-  if (size > kMost || size / kMostTimes > bytes.size() || (is_frame && size != said)) {
+  const uint64_t frame_size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  const bool is_frame =
+      frame_size != ZSTD_CONTENTSIZE_ERROR;  // else damaged, which is reported below
+  if (size > kMost || size / kMostTimes > bytes.size() || (is_frame && size != frame_size)) {
     throw InputError(file + ": byte 32: unpacked length: " + std::to_string(size) +
                      " is more than the file can hold");
   }

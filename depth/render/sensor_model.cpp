@@ -6,7 +6,7 @@
 namespace ossa::depth {
 namespace {
 
-// Constants: by data sheet, where nothing else is said.
+// Constants: by data sheet unless stated otherwise.
 
 StructuredLightOptions Xtion() {
   StructuredLightOptions xtion;

@@ -6,7 +6,8 @@
 
 namespace ossa::depth {
 
-// Simple solids and furniture as meshes, metres, centred on the origin unless said otherwise, y up.
+// Simple solids and furniture as meshes, metres, centred on the origin unless stated otherwise, y
+// up.
 
 TriangleMesh MakeBox(const Eigen::Vector3f& size_m);
 TriangleMesh MakeBall(float radius_m, int segments = 16);

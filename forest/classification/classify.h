@@ -7,7 +7,7 @@
 
 namespace ossa::forest {
 
-// Constants: chosen on validation subjects (`ossa evaluate`), where a comparison is said; seed and
+// Constants: chosen on validation subjects (`ossa evaluate`) where a comparison is stated; seed and
 // threads by convention.
 
 class ForestModel;  // forest/forest.h

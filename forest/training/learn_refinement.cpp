@@ -90,8 +90,8 @@ RowMatrix ComputeGradient(const RowMatrix& out, const RowMatrix& wanted) {
       const float pull = kPull / (std::sqrt(square + kSoft_m * kSoft_m) * step_m);
       gradient.block<1, 3>(i, 3 * t) = step_m * (within / (kWindow_m * kWindow_m) + pull) * error_m;
       const float hit = square < kHitRadius_m * kHitRadius_m ? 1.0F : 0.0F;
-      const float said = 1.0F / (1.0F + std::exp(-out(i, 3 * targets + t)));
-      gradient(i, 3 * targets + t) = kConfidenceShare * (said - hit);
+      const float confidence = 1.0F / (1.0F + std::exp(-out(i, 3 * targets + t)));
+      gradient(i, 3 * targets + t) = kConfidenceShare * (confidence - hit);
     }
   }
   return gradient / static_cast<float>(out.rows() * targets);

@@ -175,26 +175,26 @@ Parameters ReadParameters(const std::string& name, const C3dBytes& numbers) {
 size_t ReadFrameCount(const C3dBytes& bytes, const Parameters& parameters, const char* key) {
   const auto found = parameters.find(key);
   if (found == parameters.end()) return 0;
-  const Parameter& said = found->second;
-  if (said.type == 4 && said.size >= sizeof(float)) {
+  const Parameter& parameter = found->second;
+  if (parameter.type == 4 && parameter.size >= sizeof(float)) {
     constexpr double kMost = 4294967040.0;  // frames, of the format: the last float below 2^32
-    const double count = bytes.Real(said.begin);
+    const double count = bytes.Real(parameter.begin);
     return count >= 1 && count <= kMost ? static_cast<size_t>(count) : 0;
   }
-  if (said.type != 2 || said.size < 2) return 0;
-  const size_t high = said.size < 4 ? 0 : bytes.Word(said.begin + 2);
-  return (high << 16) + bytes.Word(said.begin);
+  if (parameter.type != 2 || parameter.size < 2) return 0;
+  const size_t high = parameter.size < 4 ? 0 : bytes.Word(parameter.begin + 2);
+  return (high << 16) + bytes.Word(parameter.begin);
 }
 
 // The header's count, unless it is saturated: then that of the parameters, which programs write for
 // long recordings.
 size_t CountFrames(const std::string& name, const C3dBytes& bytes, const C3d& c3d,
                    const Parameters& parameters) {
-  const auto said = [&](const char* key) { return ReadFrameCount(bytes, parameters, key); };
-  const size_t end = said("TRIAL:ACTUAL_END_FIELD");
-  const size_t start = said("TRIAL:ACTUAL_START_FIELD");
+  const auto read = [&](const char* key) { return ReadFrameCount(bytes, parameters, key); };
+  const size_t end = read("TRIAL:ACTUAL_END_FIELD");
+  const size_t start = read("TRIAL:ACTUAL_START_FIELD");
   if (end > kLastByHeader && end >= start) return end - (start > 0 ? start : c3d.first) + 1;
-  const size_t count = std::max(said("POINT:FRAMES"), said("POINT:LONG_FRAMES"));
+  const size_t count = std::max(read("POINT:FRAMES"), read("POINT:LONG_FRAMES"));
   if (c3d.first + count > kLastByHeader + 1) return count;
   if (c3d.last < c3d.first) FailAtByte(name, 8, "a last frame after the first");
   return c3d.last - c3d.first + 1;
@@ -205,9 +205,9 @@ double ReadRate_Hz(const std::string& name, const C3dBytes& bytes, const C3d& c3
                    const Parameters& parameters) {
   const auto is_rate = [](double rate_Hz) { return std::isfinite(rate_Hz) && rate_Hz > 0; };
   if (is_rate(c3d.rate_Hz)) return c3d.rate_Hz;
-  const auto said = parameters.find("POINT:RATE");
-  if (said != parameters.end() && said->second.type == 4 && said->second.size >= sizeof(float)) {
-    const double rate_Hz = bytes.Real(said->second.begin);
+  const auto found = parameters.find("POINT:RATE");
+  if (found != parameters.end() && found->second.type == 4 && found->second.size >= sizeof(float)) {
+    const double rate_Hz = bytes.Real(found->second.begin);
     if (is_rate(rate_Hz)) return rate_Hz;
   }
   FailAtByte(name, 20, "a frame rate, there or in POINT:RATE");

@@ -11,7 +11,7 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr std::string_view kWhiteSpace = " \t\v\f\r";
 

@@ -13,13 +13,13 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: the format's, where nothing else is said.
+// Constants: the format's unless stated otherwise.
 constexpr std::string_view kMember = "PK\x03\x04", kEntry = "PK\x01\x02", kEnd = "PK\x05\x06",
                            kLargeEnd = "PK\x06\x06", kLargeEndAt = "PK\x06\x07";
 constexpr size_t kMemberSize = 30, kEntrySize = 46, kEndSize = 22, kLargeEndSize = 56,
                  kLargeEndAtSize = 20;
 constexpr size_t kLongestComment = 65535;
-constexpr uint64_t kSaidInLargeEnd = 0xffffffff;
+constexpr uint64_t kInZip64Record = 0xffffffff;
 constexpr unsigned kChecksumFollows = 1U << 3U;         // local header flag
 constexpr uint64_t kLargestTable = uint64_t{1} << 26U;  // bytes, by hand: a million names
 
@@ -86,7 +86,7 @@ class ZipFile {
     if (Number(end, 4, 2) != 0 || Number(end, 6, 2) != 0 || Number(end, 8, 2) != table.entries) {
       Fail(end_at, "one file");
     }
-    if (table.at == kSaidInLargeEnd) return FindLargeTable(end_at);
+    if (table.at == kInZip64Record) return FindLargeTable(end_at);
     if (table.at + table.size != end_at) Fail(end_at, "its table of members before its end");
     return table;
   }
@@ -122,7 +122,7 @@ class ZipFile {
     const size_t size = kEntrySize + name_size + field(30, 2) + field(32, 2);
     if (entries.size() - at < size) Fail(table_at + at, "an entry of its table of members");
     uint64_t member_at = field(42, 4);
-    if (member_at == kSaidInLargeEnd) {
+    if (member_at == kInZip64Record) {
       member_at = LargeOffset(entries.substr(at + kEntrySize + name_size, field(30, 2)),
                               {field(24, 4), field(20, 4)}, table_at + at);
     }
@@ -148,7 +148,7 @@ class ZipFile {
       if (size > extra.size() - 4) break;
       if (Number(extra, 0, 2) == kLargeSizes) {
         size_t skip = 4;
-        for (const uint64_t said : sizes) skip += said == kSaidInLargeEnd ? 8 : 0;
+        for (const uint64_t value : sizes) skip += value == kInZip64Record ? 8 : 0;
         if (skip + 8 <= size + 4) return Number(extra, skip, 8);
       }
       extra.remove_prefix(4 + size);

@@ -9,7 +9,7 @@
 
 namespace ossa::recon {
 
-// Constants: by hand where nothing else is said.
+// Constants: by hand unless stated otherwise.
 
 /// When the camera counts as tilted, and by what evidence.
 struct LevelOptions {

@@ -13,7 +13,7 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr int kParts = 2;  // position errors without their mean; their second differences
 constexpr Eigen::Index kColumns = 3 * LinearFilter::kOutputs;

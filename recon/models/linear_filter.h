@@ -9,7 +9,7 @@
 
 namespace ossa::recon {
 
-// Constants: chosen by hand, where no comparison is said.
+// Constants: chosen by hand unless stated otherwise.
 
 struct LinearFilterOptions {
   // Candidates for each joint; those with the smallest held-out error (AssignFolds) are used.

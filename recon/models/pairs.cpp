@@ -6,7 +6,7 @@
 namespace ossa::recon {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 std::vector<int> SplitIntoBlocks(size_t count, int most) {
   // Few and long: half a minute each in a recording of two minutes, in which another person may

@@ -148,11 +148,11 @@ class Parser {
   void WarnOfRate() {
     constexpr double kSlowest_s = 1.0;  // by hand
     if (bvh_.frame_s <= kSlowest_s) return;
-    std::ostringstream said;
-    said << scan_.source() << ": Frame Time says " << bvh_.frame_s
-         << " s a frame, and is read so (should it be " << bvh_.frame_s
-         << " frames a second, write " << 1.0 / bvh_.frame_s << ")";
-    bvh_.warnings.push_back(said.str());
+    std::ostringstream message;
+    message << scan_.source() << ": Frame Time says " << bvh_.frame_s
+            << " s a frame, and is read so (should it be " << bvh_.frame_s
+            << " frames a second, write " << 1.0 / bvh_.frame_s << ")";
+    bvh_.warnings.push_back(message.str());
   }
 
   void ReadMotion() {
@@ -189,13 +189,13 @@ class Parser {
     return true;
   }
 
-  void CheckFrames(size_t said) {
+  void CheckFrames(size_t declared) {
     const size_t frames = bvh_.FrameCount();
-    if (frames == 0) scan_.Fail("frame 1 of " + std::to_string(said), "");
+    if (frames == 0) scan_.Fail("frame 1 of " + std::to_string(declared), "");
     if (scan_.IsCutInLastNumber()) scan_.Fail("a whole last frame", "a number that is cut");
-    if (frames == said) return;
+    if (frames == declared) return;
     bvh_.values.shrink_to_fit();
-    bvh_.warnings.push_back(scan_.source() + ": the header says " + std::to_string(said) +
+    bvh_.warnings.push_back(scan_.source() + ": the header says " + std::to_string(declared) +
                             " frames, the file has " + std::to_string(frames) + ": those are read");
   }
 

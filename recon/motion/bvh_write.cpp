@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
-// Constants: chosen by hand, where no derivation is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr int kDigits = 6;  // a millionth of a centimetre or degree
 

@@ -45,11 +45,11 @@ BoneLengths EstimateBones(const QuantisedPerceptron& network, const ProposedPers
   RowMatrix features(2, kBoneFeatures);
   features.row(0) = ComputeBoneFeatures(person);
   features.row(1) = ComputeBoneFeatures(person.Mirrored());
-  const Eigen::RowVectorXd said = network.Run(features).cast<double>().colwise().mean();
+  const Eigen::RowVectorXd prediction = network.Run(features).cast<double>().colwise().mean();
   BoneLengths lengths_m = StandardBoneLengths();
   for (size_t b = 0; b < kEstimatedBones.size(); ++b) {
     const size_t left = Index(kEstimatedBones[b]), right = kMirroredJoint[left];
-    const double over = kBoneStep * said[static_cast<Eigen::Index>(b)];
+    const double over = kBoneStep * prediction[static_cast<Eigen::Index>(b)];
     lengths_m[left] *= std::exp(std::clamp(over, -kFarthest, kFarthest));
     lengths_m[right] = lengths_m[left];
   }

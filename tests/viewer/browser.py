@@ -43,7 +43,7 @@ class Command:
             if "watch at " in line:
                 self.url = line.split("watch at ")[1].strip()
                 return
-        raise AssertionError("no address was said")
+        raise AssertionError("no address was printed")
 
     def end(self):
         if self.process.poll() is None:

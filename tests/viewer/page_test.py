@@ -274,12 +274,12 @@ class CameraPage(InBrowser):
         self.assertGreater(share_of_other_colours(page.picture_of("#stage")), 0.1)
         self.assertRegex(page.run("return document.getElementById('flow').innerText"), r"dropped, latency \d+ ms")
         page.click("#record")
-        page.wait("return page.state.recording.said", "it records")
+        page.wait("return page.state.recording.status", "it records")
         before = page.run("return page.frame.number")
         page.wait(f"return page.frame.number > {before + 3}", "frames go on")
         page.click("#record")
         page.wait("return !page.state.recording.on", "it records no more")
-        name = page.run("return page.state.recording.said")
+        name = page.run("return page.state.recording.status")
         wait_for_file(WORK / name)
 
     def test_page_fits_a_phone(self):

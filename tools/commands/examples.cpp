@@ -46,7 +46,7 @@ constexpr CommandExamples kExamples[] = {
     {"info",
      {{{"ossa info recording.oni", "frames, size and camera of a recording"},
        {"ossa info body.ossa", "a model's card"},
-       {"ossa info recording.oni --picture sheet.png", "twelve of its frames at a glance"}}}},
+       {"ossa info recording.oni --picture sheet.png", "twelve of its frames in one picture"}}}},
     {"doctor",
      {{{"ossa doctor", "cameras, rights, drivers and models of this machine"},
        {"ossa doctor --quiet && ossa view openni:", "continue only without problems"},

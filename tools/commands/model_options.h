@@ -22,10 +22,11 @@ inline void AddModelOptions(CLI::App& app, tracker::ModelFiles& files) {
                  ".ossarefine of 'ossa refine', for best and --posture refined, or none (default: "
                  "the shipped one, with best and the shipped model); one that was trained on "
                  "people seen from the ceiling is used for cameras there only");
-  app.add_option("--pose-network", files.pose_network,
-                 ".ossanet of tools/train_pose_network, shipped, or none: a network that reads all "
-                 "joints off the whole person, fused with the refined joints, except under the "
-                 "ceiling (default: shipped, with the shipped refinement)");
+  app.add_option(
+      "--pose-network", files.pose_network,
+      ".ossanet of tools/train_pose_network, shipped, or none: a network that "
+      "estimates all joints from the image of the whole person, fused with the refined "
+      "joints, except under the ceiling (default: shipped, with the shipped refinement)");
 }
 
 /// Adds --mount: how the camera is mounted.

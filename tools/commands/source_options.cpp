@@ -20,18 +20,18 @@ namespace {
 constexpr double kLongest_s = 1e6;  // eleven days; an upper bound
 
 std::function<bool()> MakeWaitCallback(const std::string& source, bool quiet) {
-  return [source, said = quiet]() mutable {
-    if (!said) PrintError(fmt::format("waiting for {} (Ctrl-C ends it)\n", source));
-    said = true;
+  return [source, printed = quiet]() mutable {
+    if (!printed) PrintError(fmt::format("waiting for {} (Ctrl-C ends it)\n", source));
+    printed = true;
     return !Interrupted();
   };
 }
 
 // Prints a source's notes; those of a source that is opened twice in one run once.
 void PrintNote(depth::NoteKind kind, const std::string& text, bool quiet,
-               std::set<std::string>& said) {
+               std::set<std::string>& printed) {
   if (quiet && kind == depth::NoteKind::kInfo) return;
-  if (said.insert(text).second) PrintError(text + "\n");
+  if (printed.insert(text).second) PrintError(text + "\n");
 }
 
 depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) {
@@ -53,8 +53,9 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
   options.guessed = [guessed = arguments.guessed](const depth::CameraGuess& guess) {
     *guessed = guess.preset;
   };
-  options.note = [quiet, said = arguments.said](depth::NoteKind kind, const std::string& text) {
-    PrintNote(kind, OnOneLine(text), quiet, *said);
+  options.note = [quiet, printed = arguments.printed](depth::NoteKind kind,
+                                                      const std::string& text) {
+    PrintNote(kind, OnOneLine(text), quiet, *printed);
   };
   return options;
 }

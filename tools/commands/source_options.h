@@ -22,7 +22,7 @@ struct SourceArguments {
   double fps = 0.0;          // 0: not given
   bool mirrored = false;     // the images are mirrored
   std::string rotate = "auto";
-  std::shared_ptr<std::set<std::string>> said = std::make_shared<std::set<std::string>>();
+  std::shared_ptr<std::set<std::string>> printed = std::make_shared<std::set<std::string>>();
   // The preset chosen by the images' size; "": the camera is stated.
   std::shared_ptr<std::string> guessed = std::make_shared<std::string>();
   double wait_s = 0.0;

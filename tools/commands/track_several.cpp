@@ -41,7 +41,7 @@ std::unique_ptr<Camera> OpenCamera(const TrackOptions& options, const std::strin
   auto camera = std::make_unique<Camera>();
   camera->arguments = options.source;
   camera->arguments.name = name;
-  camera->arguments.said = std::make_shared<std::set<std::string>>();  // one per thread
+  camera->arguments.printed = std::make_shared<std::set<std::string>>();  // one per thread
   camera->skeletons.source = name;
   FindCamera(
       camera->arguments, [&] { return options.tracker; }, options.quiet);

@@ -20,7 +20,7 @@ namespace {
 
 using namespace recon;
 
-// Constants: by the rig (recon/body/rig.h), where nothing else is said.
+// Constants: by the rig (recon/body/rig.h) unless stated otherwise.
 
 // The segment of each bone of the rig.
 constexpr std::array<uint8_t, kRigBoneCount> kSegmentOfBone = {

@@ -456,7 +456,7 @@ def main():
     model.train()
     training = Training(model, options, device)
     average = training.average
-    start, read, said = time.time(), 0, time.time()
+    start, read, reported = time.time(), 0, time.time()
     while True:
         if options.seconds:
             done = (time.time() - start) / options.seconds
@@ -469,14 +469,14 @@ def main():
         crops, joints = people.batch(options.batch)
         training.step(crops, joints, options.rate * rate)
         read += len(crops)
-        if time.time() - said > 20:
+        if time.time() - reported > 20:
             people.read()
             print(f"{time.time() - begun:.0f} s: {read} read of {people.count} people, "
                   f"loss {training.loss.item():.3f}; {evaluate(average, validation)}", flush=True)
             save(average, options.out)
             if options.keep:
                 keep_state(average, options.keep)
-            said = time.time()
+            reported = time.time()
     save(average, options.out)
     if options.keep:
         keep_state(average, options.keep)

@@ -15,7 +15,7 @@
 namespace ossa::tracker {
 
 /// Options of the joint choice of modes. Costs are negative log-likelihoods (nats, no unit), >= 0.
-/// Constants: chosen by hand on rendered clips of validation subjects, where nothing else is said.
+/// Constants: chosen by hand on rendered clips of validation subjects unless stated otherwise.
 struct ChoiceOptions {
   size_t modes = 4;           // the fifth mode and later ones were never right on rendered frames
   double missing_cost = 2.3;  // logarithm, -log 0.1: modes with a lower likelihood are not chosen

@@ -19,7 +19,7 @@
 namespace ossa::tracker {
 
 /// Tolerances between the skeleton and the observed joints. Weights, confidences and reliabilities
-/// in [0, 1], lengths and times > 0. Constants: by hand where nothing else is said.
+/// in [0, 1], lengths and times > 0. Constants: by hand unless stated otherwise.
 struct HoldOptions {
   // Largest distance of a tracked joint from its observation; unreliable_m is added at reliability
   // 0.

@@ -15,7 +15,7 @@ namespace ossa::tracker {
 
 struct BodyFrame;
 
-// Constants: chosen by hand, on tracked people in rendered scenes, where nothing else is said.
+// Constants: chosen by hand, on tracked people in rendered scenes unless stated otherwise.
 
 /// An object of a scene and its initial place.
 struct SceneObject {

@@ -12,7 +12,7 @@ using recon::Joint;
 using recon::kJointCount;
 using recon::Posture;
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr double kForget_s = 0.5;  // longest time out of view
 constexpr double kElsewhere_m =

@@ -58,7 +58,7 @@ std::string SharedState::StateJson() const {
                          {"recording",
                           {{"possible", recorder.possible()},
                            {"on", recorder.requested()},
-                           {"said", recorder.status()}}}};
+                           {"status", recorder.status()}}}};
   if (options.expected_frames) json["expected"] = *options.expected_frames;
   for (size_t i = 0; i < overlay_lines_.size(); ++i) {
     json["overlays"].push_back(

@@ -4,7 +4,7 @@
 
 namespace ossa::recon {
 
-// Constants: by hand where nothing else is said.
+// Constants: by hand unless stated otherwise.
 
 /// Thresholds of the trust in a joint; all weights in [0, 1].
 struct TrustOptions {

@@ -217,7 +217,7 @@ TEST(Viewer, RecordsOnRequest) {
   for (int f = 0; f < 3; ++f) viewer.Show(ExampleDisplayFrame(f));
   const auto state = nlohmann::json::parse(page.Ask(R"({"record":false})"));
   viewer.Show(ExampleDisplayFrame(3));
-  const std::string name = state["recording"]["said"];
+  const std::string name = state["recording"]["status"];
   const auto source = depth::OpenSource((folder.path() / name).string());
   EXPECT_EQ(source->frame_count(), 3);
   EXPECT_EQ(source->Read(milliseconds(5000)).frame.depth_mm, test::ExampleFrame(0).depth_mm);

@@ -10,7 +10,7 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: by hand, where nothing else is said.
+// Constants: by hand unless stated otherwise.
 
 // For ordinary tracking, mirroring or shifting in time does not reduce the error; for a symmetric
 // posture the errors are equal.

@@ -20,7 +20,7 @@ using recon::BodyRecord;
 using recon::SkeletonFrame;
 using recon::SkeletonSequence;
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr double kLongestGap_s = 0.2;  // truth is not interpolated across more
 constexpr double kSameTime_s = 2e-3;   // nearer than this, a time is the same time

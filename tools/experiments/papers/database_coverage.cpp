@@ -12,7 +12,7 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr size_t kEveryNthFrame = 5;  // neighbouring frames have similar postures
 

@@ -15,7 +15,7 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr std::array kTilts_deg = {0.0, 10.0, 20.0,
                                    27.0};  // the last: the largest tilt of a Kinect v1

@@ -13,7 +13,7 @@ namespace {
 using recon::BodyRecord;
 using recon::kJointCount;
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 // 25 cm in a thirtieth of a second is 7.5 m/s about the next joint: a boxer's fist, in no exercise.
 constexpr double kJump_m = 0.25;

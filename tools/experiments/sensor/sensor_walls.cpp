@@ -10,7 +10,7 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: figures of the literature, where nothing else is said.
+// Constants: figures of the literature unless stated otherwise.
 
 struct Walled {
   const char* sensor;

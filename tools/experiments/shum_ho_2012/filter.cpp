@@ -13,7 +13,7 @@
 namespace ossa::tools {
 namespace {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 using Eigen::Vector3d;
 using recon::Joint;

@@ -21,7 +21,7 @@ const std::vector<std::string> kOfCmu = {"02_05", "02_07", "02_08", "02_10",
                                          "60_06", "60_11", "60_12"};
 const std::vector<std::string> kOfBandai = {
     "dataset-1_byebye_tired_001", "dataset-1_kick_normal_001", "dataset-1_slash_normal_001"};
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 constexpr uint64_t kOtherMovers =
     7919;  // added to the seed, for other movers than the shipped database's

@@ -2,7 +2,7 @@
 
 namespace ossa::tools {
 
-// Constants: chosen by hand, where nothing else is said.
+// Constants: chosen by hand unless stated otherwise.
 
 Eigen::Vector3d SimulatedSdk::Noise(double deviation_m) {
   const double x = random_.Normal(0, deviation_m);

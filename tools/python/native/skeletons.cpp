@@ -28,8 +28,8 @@ namespace ossa::python {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int8_t kUnsaid = -1;   // by definition: state or visibility that no file contains
-constexpr int64_t kNobody = -1;  // by definition: id of the row of a frame without bodies
+constexpr int8_t kUnknownValue = -1;  // by definition: state or visibility that no file contains
+constexpr int64_t kNobody = -1;       // by definition: id of the row of a frame without bodies
 
 /// The columns of a Sequence: one row per body of each frame, and one row for a frame without
 /// bodies.
@@ -56,8 +56,9 @@ struct Columns {
     }
     confidence.push_back(value(&recon::JointRecord::confidence));
     reliability.push_back(value(&recon::JointRecord::reliability));
-    states.push_back(joint && joint->state ? static_cast<int8_t>(*joint->state) : kUnsaid);
-    visible.push_back(joint && joint->visible ? static_cast<int8_t>(*joint->visible) : kUnsaid);
+    states.push_back(joint && joint->state ? static_cast<int8_t>(*joint->state) : kUnknownValue);
+    visible.push_back(joint && joint->visible ? static_cast<int8_t>(*joint->visible)
+                                              : kUnknownValue);
   }
   void AddBody(const recon::BodyRecord& body) {
     for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -135,8 +136,8 @@ class Rows {
     if (std::isfinite(trust)) joint.confidence = trust;
     if (std::isfinite(reliable)) joint.reliability = reliable;
     const int8_t state = states.at(row, j), seen = visible.at(row, j);
-    if (state != kUnsaid) joint.state = static_cast<recon::TrackingState>(state);
-    if (seen != kUnsaid) joint.visible = seen != 0;
+    if (state != kUnknownValue) joint.state = static_cast<recon::TrackingState>(state);
+    if (seen != kUnknownValue) joint.visible = seen != 0;
     const double* const q = orientations.data(row, j, 0);
     if (std::isfinite(q[0])) joint.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
     return joint;

@@ -56,11 +56,11 @@ def _check_joints(rows: Rows) -> None:
     for name in ("confidence", "reliability"):
         values = rows[name][there]
         good = np.isnan(values) | ((values >= 0) & (values <= 1))
-        _require(name, "0 to 1, or NaN where nothing is said", values, good)
+        _require(name, "0 to 1, or NaN where unknown", values, good)
     turns = rows["orientations"][there]
     lengths = np.linalg.norm(turns, axis=-1)
     good = np.isnan(turns).all(axis=-1) | (np.abs(lengths - 1) <= _OFF_UNIT_LENGTH)
-    _require("orientations", "quaternions of length 1, or NaN where nothing is said", lengths, good)
+    _require("orientations", "quaternions of length 1, or NaN where unknown", lengths, good)
 
 
 def _check_floor(rows: Rows) -> None:
@@ -72,9 +72,9 @@ def _check_floor(rows: Rows) -> None:
 
 def _check_bones(rows: Rows) -> None:
     bones_m = rows["bones_m"]
-    said = bones_m[~np.isnan(bones_m).all(axis=1)]
+    known = bones_m[~np.isnan(bones_m).all(axis=1)]
     expected = f"0 to {_LONGEST_BONE_M:g} m of every bone, or NaN of all"
-    _require("bones_m", expected, said, (said >= 0) & (said <= _LONGEST_BONE_M))
+    _require("bones_m", expected, known, (known >= 0) & (known <= _LONGEST_BONE_M))
 
 
 def check_rows(rows: Rows) -> None:

@@ -14,7 +14,7 @@ from ._rows import check_rows
 
 Floats = npt.NDArray[np.float64]
 
-_NOBODY = -1  # id of a row that stands for a frame without bodies
+_NOBODY = -1  # id of the row of a frame without bodies
 _NO_STATE = -1  # code of an empty state, in the extension
 _STATE_NAMES = np.array(("",) + STATES)  # by code + 1
 _COLUMNS = {  # name: shape of a row, default value

@@ -51,7 +51,7 @@ export class LivePanel {
     $('record').hidden = !recording.possible;
     $('record').classList.toggle('on', recording.on);
     $('record').textContent = recording.on ? '■ stop' : '● record';
-    $('recorded').textContent = recording.said;
+    $('recorded').textContent = recording.status;
   }
 }
 
