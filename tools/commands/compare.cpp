@@ -50,8 +50,8 @@ tools::Comparison Compared(const std::string& truth, const std::vector<std::stri
 std::string Formats() {
   std::string text =
       "TRUTH and RESULT are files, folders or archives (.tar.gz, .zip) of recordings; clips in "
-      "them are matched by name. Of a file that holds truth and estimate side by side each takes "
-      "its own; FILE#truth and FILE#observed say which. Formats, found by content:";
+      "them are matched by name. From a file that contains truth and estimate, each takes its own; "
+      "FILE#truth and FILE#observed choose. Formats, found by content:";
   for (const std::string& format : recon::SkeletonFormats()) text += " " + format;
   return text;
 }

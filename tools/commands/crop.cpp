@@ -14,7 +14,7 @@ namespace ossa::commands {
 
 int Crop(int argc, char** argv) {
   CLI::App app(
-      "Cut the people of a data set out as the pose network reads them, as NumPy files for "
+      "Crop the people of a data set for training a pose network: NumPy files for "
       "tools/learning/train_pose_network.py");
   std::string dataset, out;
   int threads = 0;

@@ -31,8 +31,8 @@ int Show(const char* title, const std::vector<Finding>& findings, bool quiet) {
 
 int Doctor(int argc, char** argv) {
   CLI::App app(
-      "Check what keeps cameras from working: devices, permissions, drivers, models; and say what "
-      "to do. Exit status 1 if there is a problem");
+      "Check devices, permissions, drivers and models for problems, and suggest remedies. Exit "
+      "status 1 if there is a problem");
   std::string root = "/";
   bool quiet = false;
   app.add_option("--root", root, "look for cameras in sys/ and dev/ of this folder")

@@ -99,7 +99,7 @@ constexpr CommandExamples kExamples[] = {
        {"ossa track clip --out me.jsonl --surface body.ossasurface", "track with it"}}}},
     {"train",
      {{{"ossa train data --out body.ossa", "a forest from a data set of ossa render"},
-       {"ossa train data --out body.ossa --resume", "go on where it stopped"},
+       {"ossa train data --out body.ossa --resume", "continue an interrupted run"},
        {"mpirun -np 4 ossa train data --out body.ossa", "four processes share the work"}}}},
     {"render",
      {{{"ossa render --mocap authored --out data --frames 10000 --view any",

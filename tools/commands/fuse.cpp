@@ -75,7 +75,7 @@ std::vector<recon::SkeletonSequence> ReadAll(Arguments& a) {
 }  // namespace
 
 int Fuse(int argc, char** argv) {
-  CLI::App app("Fuse the skeletons that several cameras saw of the same people");
+  CLI::App app("Fuse skeletons of the same people from several cameras");
   Arguments a;
   Declare(app, a);
   Parse(app, argc, argv);

@@ -76,7 +76,7 @@ std::vector<float> ReadNumbers(const std::string& path) {
 }  // namespace
 
 int PackNetwork(int argc, char** argv) {
-  CLI::App app("Make the file of a pose network from the weights that a trainer wrote");
+  CLI::App app("Convert trained weights to the file of a pose network");
   std::string weights, out;
   uint64_t people = 0;
   app.add_option("WEIGHTS", weights, "the .npy of tools/learning/train_pose_network.py")

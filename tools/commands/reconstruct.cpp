@@ -134,10 +134,10 @@ void AddLocalPcaOptions(CLI::App& app, ReconstructArguments& a) {
       ->delimiter(',');
   app.add_flag("--no-reliability", a.no_reliability, "method B of Shum 2013");
   app.add_flag("--keep-reliable", pca.keep_reliable,
-               "shum-2013, plantard-2016: joints stay where they were seen, as far as that is "
-               "reliable (not in the papers)");
+               "shum-2013, plantard-2016: reliable joints keep their observed positions (not in "
+               "the papers)");
   app.add_flag("--extend", pca.extend_database,
-               "of shum-2013: reliable postures join the database (sec. IX)");
+               "shum-2013: add reliable postures to the database (sec. IX)");
 }
 
 void AddLagOption(CLI::App& app, ReconstructArguments& a) {

@@ -34,10 +34,9 @@ struct RefineArguments {
 void AddFileOptions(CLI::App& app, RefineArguments& a) {
   app.add_option("DATASET", a.datasets, "folders made by ossa render")->required();
   app.add_option("--out", a.out, "the .ossarefine file to write")->required();
-  app.add_option(
-      "--model", a.model_path,
-      "forest model, .ossa (default: the shipped one, of people seen from the ceiling that for "
-      "them)");
+  app.add_option("--model", a.model_path,
+                 "forest model, .ossa (default: the shipped one; for people seen from the ceiling, "
+                 "the shipped one for these)");
   app.add_option("--after", a.after,
                  "a .ossarefine to which one more stage is added; if it estimates bone lengths, a "
                  "bone-conditioned one (best trained on other people)");

@@ -64,7 +64,7 @@ void DeclareSet(CLI::App& app, Arguments& a) {
 
 void DeclarePeople(CLI::App& app, Arguments& a) {
   app.add_option("--bodies", a.bodies,
-                 "random shapes and clothes; any: also the ends of the range; or the average body")
+                 "random shapes and clothes; any: also extreme shapes; or the average body")
       ->check(CLI::IsMember({"random", "any", "average"}))
       ->capture_default_str();
   app.add_option("--clothes", a.clothes,
@@ -87,10 +87,11 @@ void DeclareScene(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"front", "any", "near", "ceiling"}))
       ->capture_default_str();
   app.add_option("--occluders", a.occluders,
-                 "objects, part 32: held in the hands, standing in front (scene), sometimes either "
-                 "(any); held-up: cloth, boards, paper, boxes before the body; desk: forearms on a "
+                 "objects, part 32: held in the hands, standing in front (scene), or either in "
+                 "some frames (any); held-up: cloth, boards, paper, boxes held in front of the "
+                 "body; desk: forearms on a "
                  "desk or a chair's arms; wheelchair, crutches: sitting or walking with them; all: "
-                 "sometimes each of them")
+                 "any of these in some frames")
       ->check(CLI::IsMember(
           {"none", "held", "scene", "any", "held-up", "desk", "wheelchair", "crutches", "all"}))
       ->capture_default_str();
@@ -137,7 +138,7 @@ void DeclareFiles(CLI::App& app, Arguments& a) {
                "one continuous clip at 30 Hz: one body before one camera, frames in order");
   app.add_option("--cameras", a.cameras,
                  "number of cameras around the people of a --sequence, each with a data set of the "
-                 "same moments, OUT/camera_0 and so on, and OUT/extrinsics.json")
+                 "same times, OUT/camera_0 and so on, and OUT/extrinsics.json")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
   AddMappingOption(app, a.mapping);

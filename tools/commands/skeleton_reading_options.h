@@ -13,7 +13,7 @@ inline void AddSkeletonReadingOptions(CLI::App& app, recon::SkeletonReadOptions&
   app.add_option_function<double>(
          "--fps", [&reading](double rate_hz) { reading.frame_s = 1.0 / rate_hz; },
          "frame rate of skeletons whose file states no times, Hz (default: the usual one of its "
-         "format, 30 of tables and of the SDKs)")
+         "format, 30 for tables and SDK files)")
       ->check(CLI::Range(0.001, 10000.0));  // as of depth images
 }
 

@@ -121,10 +121,9 @@ void AddRunOptions(CLI::App* app, TrainArguments* a) {
   auto* trees_of = app->add_option("--trees-of", a->trees_of,
                                    "keep the trees of this model; learn only the pose prior (on "
                                    "DATASET) and the proposals (on --validation)");
-  auto* import_pcl =
-      app->add_option("--import-pcl", a->import_pcl,
-                      "make a model of PCL people trees (text) instead of training; proposals of "
-                      "joints are learned on --validation");
+  auto* import_pcl = app->add_option("--import-pcl", a->import_pcl,
+                                     "convert PCL people trees (text) to a model instead of "
+                                     "training; joint proposals are learned on --validation");
   trees_of->excludes(resume)->excludes(import_pcl);
   import_pcl->excludes(resume);
 }

@@ -7,12 +7,13 @@ namespace ossa::tools {
 namespace {
 
 constexpr Experiment kExperiments[] = {
-    {"body", "pictures of the 31 parts and of motions on the body", ReadBodyParameters, RunBody},
+    {"body", "pictures of the 31 parts and of retargeted motions", ReadBodyParameters, RunBody},
     {"sensor", "simulated depth sensors compared with real ones", ReadSensorParameters, RunSensor},
-    {"person-classifier", "fits the weights that tell people from furniture",
+    {"person-classifier", "fits the classifier of people and furniture",
      ReadPersonClassifierParameters, RunPersonClassifier},
     {"indoor-scenes",
-     "the tracker in rendered indoor scenes: people found, cut, invented, exchanged; joints",
+     "the tracker in rendered indoor scenes: detection, split and false bodies, identity switches, "
+     "joints",
      ReadIndoorScenesParameters, RunIndoorScenes},
     {"first-frames", "people found in single images, with objects held or in front",
      ReadFirstFramesParameters, RunFirstFrames},
