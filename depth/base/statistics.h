@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace ossa {
@@ -24,6 +26,11 @@ T SelectRank(std::vector<T>& values, size_t rank) {
 template <typename T>
 T Median(std::vector<T> values) {
   return SelectRank(values, values.size() / 2);
+}
+
+/// The same; NaN of no values.
+inline double MedianOrNan(std::vector<double> values) {
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : Median(std::move(values));
 }
 
 }  // namespace ossa

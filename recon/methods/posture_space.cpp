@@ -141,12 +141,9 @@ Eigen::ArrayXf Energies(const PostureSpace& space, const EnergyInputs& inputs,
 
 namespace {
 
-/// Nearly standard normal: the sum of four uniform numbers (Irwin-Hall), which is sufficient for
-/// exploration and, unlike Random::Normal, needs no logarithm.
+/// Nearly standard normal, which is sufficient for exploration.
 float DrawNormal(Random& random) {
-  const uint64_t bits = random.Bits();
-  int64_t sum = 0;
-  for (int k = 0; k < 4; ++k) sum += static_cast<int64_t>((bits >> (16 * k)) & 0xFFFF);
+  const int sum = SumOfParts(random.Bits());
   return static_cast<float>(static_cast<double>(sum - 2 * 65535) / 37836.8);  // unit variance
 }
 

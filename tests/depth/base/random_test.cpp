@@ -54,5 +54,29 @@ TEST(Random, DrawsNormallyDistributedNumbers) {
   EXPECT_NEAR(square / kDraws, 1.0, 0.07);
 }
 
+TEST(Random, SumsFourPartsOf16Bits) {
+  EXPECT_EQ(SumOfParts(0), 0);
+  EXPECT_EQ(SumOfParts(0xFFFF'0001'0020'0300ULL), 0xFFFF + 0x1 + 0x20 + 0x300);
+  EXPECT_EQ(SumOfParts(~uint64_t{0}), 4 * 0xFFFF);
+}
+
+// Four independent uniform numbers: excess kurtosis -1.2 / 4. Standard errors of 100 000 draws are
+// below 0.01 for the mean, variance and kurtosis.
+TEST(Random, SumOfPartsIsNearlyNormal) {
+  constexpr int kDraws = 100000;
+  const double deviation = std::sqrt((65536.0 * 65536.0 - 1.0) / 3.0);
+  Random random(8);
+  double sum = 0.0, square = 0.0, fourth = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    const double x = (SumOfParts(random.Bits()) - 2 * 65535) / deviation;
+    sum += x;
+    square += x * x;
+    fourth += x * x * x * x;
+  }
+  EXPECT_NEAR(sum / kDraws, 0.0, 0.02);
+  EXPECT_NEAR(square / kDraws, 1.0, 0.02);
+  EXPECT_NEAR(fourth / kDraws, 2.7, 0.06);
+}
+
 }  // namespace
 }  // namespace ossa

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace ossa {
 namespace {
 
@@ -11,7 +13,12 @@ TEST(Median, IsTheMiddleOneOrTheUpperOfTwo) {
   EXPECT_EQ(Median<int>({7}), 7);
 }
 
-TEST(SelectRank, IsWhatWouldStandThereInOrder) {
+TEST(Median, OfNoValuesIsNan) {
+  EXPECT_TRUE(std::isnan(MedianOrNan({})));
+  EXPECT_EQ(MedianOrNan({3.0, 1.0, 2.0}), 2.0);
+}
+
+TEST(SelectRank, EqualsTheElementOfTheSortedValues) {
   const std::vector<int> values = {5, 3, 9, 1, 7};
   for (size_t rank = 0; rank < values.size(); ++rank) {
     std::vector<int> some = values;

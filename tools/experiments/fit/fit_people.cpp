@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "depth/base/statistics.h"
 #include "tools/experiments/fit/track_person_internal.h"
 
 namespace ossa::tools {
@@ -26,10 +27,11 @@ void AddStature(const std::string& name, const std::string& height,
     normalised.push_back(off_cm.back() / sigma_cm.back());
   }
   if (off_cm.empty()) return;
-  table.rows.push_back(
-      {name, height, fmt::format("{} of {}", off_cm.size(), outcomes.size()),
-       fmt::format("{:.1f}", Middle(absolute_cm)), fmt::format("{:+.1f}", Mean(off_cm)),
-       fmt::format("{:.1f}", Middle(sigma_cm)), Share(normalised, 1.0), Share(normalised, 2.0)});
+  table.rows.push_back({name, height, fmt::format("{} of {}", off_cm.size(), outcomes.size()),
+                        fmt::format("{:.1f}", MedianOrNan(absolute_cm)),
+                        fmt::format("{:+.1f}", Mean(off_cm)),
+                        fmt::format("{:.1f}", MedianOrNan(sigma_cm)), Share(normalised, 1.0),
+                        Share(normalised, 2.0)});
 }
 
 void AddStatures(const Trial& trial, const std::vector<Outcome>& outcomes, bool by_height,
@@ -71,9 +73,9 @@ void AddJointErrors(const Trial& trial, const std::vector<Outcome>& outcomes, Ta
   std::vector<double> all2, all_error, all_sigma;
   const auto add = [&](const std::string& name, const std::vector<double>& chi2,
                        const std::vector<double>& error_m, const std::vector<double>& sigma_m) {
-    table.rows.push_back({trial.name, name, fmt::format("{:.1f}", 100 * Middle(error_m)),
-                          fmt::format("{:.1f}", 100 * Middle(sigma_m)),
-                          fmt::format("{:.2f}", Middle(chi2)), Share(chi2, kInner),
+    table.rows.push_back({trial.name, name, fmt::format("{:.1f}", 100 * MedianOrNan(error_m)),
+                          fmt::format("{:.1f}", 100 * MedianOrNan(sigma_m)),
+                          fmt::format("{:.2f}", MedianOrNan(chi2)), Share(chi2, kInner),
                           Share(chi2, kOuter)});
   };
   for (const JointGroup& group : JointGroups()) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "depth/base/statistics.h"
 #include "tools/experiments/fit/track_person_internal.h"
 
 namespace ossa::tools {
@@ -36,9 +37,9 @@ void AddRow(const Wrong& wrong, const std::vector<Outcome>& outcomes, Table& tab
     normalised.push_back(off_m / outcome.estimated->sigma_m);
   }
   table.rows.push_back({wrong.name, std::to_string(stature_cm.size()),
-                        fmt::format("{:.1f}", Middle(fitted_cm)),
-                        fmt::format("{:.1f}", Middle(final_cm)),
-                        fmt::format("{:.1f}", Middle(stature_cm)), Share(normalised, 2.0)});
+                        fmt::format("{:.1f}", MedianOrNan(fitted_cm)),
+                        fmt::format("{:.1f}", MedianOrNan(final_cm)),
+                        fmt::format("{:.1f}", MedianOrNan(stature_cm)), Share(normalised, 2.0)});
 }
 
 }  // namespace

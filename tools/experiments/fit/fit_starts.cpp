@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "depth/base/random.h"
+#include "depth/base/statistics.h"
 #include "tools/experiments/fit/track_person_internal.h"
 
 namespace ossa::tools {
@@ -170,10 +171,10 @@ void AddRows(const std::string& clothes, const std::vector<Still>& stills,
     const Ends ends = FitFrom(start, stills, surface, seed);
     const double fits = static_cast<double>(ends.sure_cm.size());
     table.rows.push_back({clothes, start.name, std::to_string(ends.sure_cm.size()),
-                          fmt::format("{:.1f}", Middle(ends.start_cm)),
-                          fmt::format("{:.1f}", Middle(ends.sure_cm)),
+                          fmt::format("{:.1f}", MedianOrNan(ends.start_cm)),
+                          fmt::format("{:.1f}", MedianOrNan(ends.sure_cm)),
                           Share(ends.sure_cm, kFound_cm), Share(ends.unsure_cm, kFound_cm),
-                          fmt::format("{:.0f}", Middle(ends.explained)),
+                          fmt::format("{:.0f}", MedianOrNan(ends.explained)),
                           fmt::format("{:.0f}", 100.0 * static_cast<double>(ends.retried) / fits)});
   }
 }

@@ -68,10 +68,6 @@ Outcome TrackPerson(const RenderedPerson& person, const std::vector<LabelledFram
   return outcome;
 }
 
-double Middle(const std::vector<double>& values) {
-  return values.empty() ? std::nan("") : Median(values);
-}
-
 double Mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value;

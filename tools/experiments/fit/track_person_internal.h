@@ -29,9 +29,7 @@ Outcome TrackPerson(const RenderedPerson& person, const std::vector<LabelledFram
 const tracker::Body* PersonIn(const tracker::BodyFrame& seen, const recon::Posture& truth);
 double MeanError_m(const recon::Posture& a, const recon::Posture& truth);
 
-/// Median and mean (NaN if `values` is empty), and the percentage of values within a bound, as
-/// text.
-double Middle(const std::vector<double>& values);
+/// Mean (NaN of no values), and the percentage of values within a bound, as text.
 double Mean(const std::vector<double>& values);
 std::string Share(const std::vector<double>& values, double within);
 

@@ -1,9 +1,9 @@
 // Stills with truth: joints of each stage of the tracker and their errors.
 #include "tools/experiments/real/real_evaluation_internal.h"
 
-#include <algorithm>
 #include <limits>
 
+#include "depth/base/statistics.h"
 #include "depth/image/camera.h"
 
 namespace ossa::tools {
@@ -40,12 +40,6 @@ double MeanLength(const JointErrors& errors) {
   return count == 0 ? std::numeric_limits<double>::infinity() : sum / count;
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The constant offset of joint `j` for still `i`, from the stills that may be used; empty if there
 // are too few.
 std::optional<Eigen::Vector3d> OffsetFor(const RealSet& set,
@@ -61,7 +55,7 @@ std::optional<Eigen::Vector3d> OffsetFor(const RealSet& set,
     }
   }
   if (axes[0].size() < kLeastForOffset) return std::nullopt;
-  return Eigen::Vector3d(Median(axes[0]), Median(axes[1]), Median(axes[2]));
+  return Eigen::Vector3d(ossa::Median(axes[0]), ossa::Median(axes[1]), ossa::Median(axes[2]));
 }
 
 // The error minus the offset; sets `removed` if there is an offset.

@@ -64,14 +64,14 @@ struct FastError {
 };
 
 /// Errors after smoothing.
-struct Left {
+struct SmoothingErrors {
   std::vector<ClipMetrics> clips;
   std::vector<FastError> fast;  // of each clip
 };
 
-double MeanFast_cm(const Left& left) {
+double MeanFast_cm(const SmoothingErrors& result) {
   FastError sum;
-  for (const FastError& of_clip : left.fast) {
+  for (const FastError& of_clip : result.fast) {
     sum.sum_cm += of_clip.sum_cm;
     sum.count += of_clip.count;
   }
@@ -108,37 +108,37 @@ recon::SkeletonSequence Smoothed(const Smoothing& smoothing, const recon::Skelet
   return recon::SmoothSequence(made, smoothing.lag);
 }
 
-nlohmann::json ToJson(const std::vector<Left>& lefts) {
+nlohmann::json ErrorsToJson(const std::vector<SmoothingErrors>& errors) {
   auto json = nlohmann::json::array();
-  for (const Left& left : lefts) {
+  for (const SmoothingErrors& result : errors) {
     auto fast = nlohmann::json::array();
-    for (const FastError& of_clip : left.fast) fast.push_back({of_clip.sum_cm, of_clip.count});
-    json.push_back({ClipsToJson(left.clips), fast});
+    for (const FastError& of_clip : result.fast) fast.push_back({of_clip.sum_cm, of_clip.count});
+    json.push_back({ClipsToJson(result.clips), fast});
   }
   return json;
 }
 
-std::vector<Left> FromJson(const nlohmann::json& json) {
-  std::vector<Left> lefts;
+std::vector<SmoothingErrors> ErrorsFromJson(const nlohmann::json& json) {
+  std::vector<SmoothingErrors> errors;
   for (const auto& one : json) {
-    Left& left = lefts.emplace_back();
-    left.clips = ClipsFromJson(one.at(0));
+    SmoothingErrors& result = errors.emplace_back();
+    result.clips = ClipsFromJson(one.at(0));
     for (const auto& fast : one.at(1)) {
-      left.fast.push_back({fast.at(0).get<double>(), fast.at(1).get<int64_t>()});
+      result.fast.push_back({fast.at(0).get<double>(), fast.at(1).get<int64_t>()});
     }
   }
-  return lefts;
+  return errors;
 }
 
-void AddLeft(const Left& one, Left& sum) {
+void Append(const SmoothingErrors& one, SmoothingErrors& sum) {
   sum.clips.insert(sum.clips.end(), one.clips.begin(), one.clips.end());
   sum.fast.insert(sum.fast.end(), one.fast.begin(), one.fast.end());
 }
 
 /// Errors of the smoothings over the fold's tested clips, learned without their subject. Cached.
-std::vector<Left> EvaluateAll(ExperimentContext& context, const Fold& fold,
-                              const std::vector<Smoothing>& smoothings,
-                              const recon::ReconstructorOptions& options) {
+std::vector<SmoothingErrors> EvaluateAll(ExperimentContext& context, const Fold& fold,
+                                         const std::vector<Smoothing>& smoothings,
+                                         const recon::ReconstructorOptions& options) {
   std::string key =
       fmt::format("lag {} {} {}", ComputeCodeKey(), fold.key, ComputeOptionsKey(context, options));
   for (const Smoothing& s : smoothings) {
@@ -147,35 +147,35 @@ std::vector<Left> EvaluateAll(ExperimentContext& context, const Fold& fold,
   const std::string text = context.Cached(key, [&] {
     if (context.progress) context.progress(0, 0, "lag, without " + fold.name);
     const auto with = LearnFold(fold, "best", options);
-    std::vector<std::vector<Left>> by_clip(fold.test.size());
+    std::vector<std::vector<SmoothingErrors>> by_clip(fold.test.size());
     RunJobs(fold.test.size(), context.threads, [&](size_t i) {
       const RecordedPair& recorded = *fold.test[i];
       const auto made = RunMethod(recorded.observed, "best", with);
       for (const Smoothing& smoothing : smoothings) {
-        Left& left = by_clip[i].emplace_back();
+        SmoothingErrors& result = by_clip[i].emplace_back();
         for (const PairedTracks& pair :
              PairUp(recorded.truth, Smoothed(smoothing, recorded.observed, made))) {
-          left.clips.push_back(Measure(pair));
-          left.clips.back().name = recorded.clip;
-          left.fast.push_back(MeasureFastError(pair));
+          result.clips.push_back(Measure(pair));
+          result.clips.back().name = recorded.clip;
+          result.fast.push_back(MeasureFastError(pair));
         }
       }
     });
-    std::vector<Left> lefts(smoothings.size());
+    std::vector<SmoothingErrors> errors(smoothings.size());
     for (const auto& of_clip : by_clip) {
-      for (size_t s = 0; s < lefts.size(); ++s) AddLeft(of_clip[s], lefts[s]);
+      for (size_t s = 0; s < errors.size(); ++s) Append(of_clip[s], errors[s]);
     }
-    return ToJson(lefts).dump();
+    return ErrorsToJson(errors).dump();
   });
-  return FromJson(nlohmann::json::parse(text));
+  return ErrorsFromJson(nlohmann::json::parse(text));
 }
 
 /// For each person: errors of the smoothings on the other people, over every `every`-th clip.
-std::map<std::string, std::vector<Left>> EvaluateOnOthers(
+std::map<std::string, std::vector<SmoothingErrors>> EvaluateOnOthers(
     ExperimentContext& context, const std::vector<Fold>& folds,
     const std::vector<Smoothing>& smoothings, const recon::ReconstructorOptions& options,
     size_t every) {
-  std::map<std::string, std::vector<Left>> others;
+  std::map<std::string, std::vector<SmoothingErrors>> others;
   for (const Fold& fold : folds) others[fold.name].resize(smoothings.size());
   for (size_t a = 0; a < folds.size(); ++a) {
     for (size_t b = a + 1; b < folds.size(); ++b) {
@@ -184,13 +184,13 @@ std::map<std::string, std::vector<Left>> EvaluateOnOthers(
       for (size_t i = 0; i < both.test.size(); i += every) some.push_back(both.test[i]);
       both.test = std::move(some);
       both.key += fmt::format(" every {}", every);
-      const auto lefts = EvaluateAll(context, both, smoothings, options);
-      for (size_t s = 0; s < lefts.size(); ++s) {
-        for (size_t c = 0; c < lefts[s].clips.size(); ++c) {
-          const bool of_a = lefts[s].clips[c].name.starts_with(folds[a].name + "/");
-          Left& of_other = others[folds[of_a ? b : a].name][s];
-          of_other.clips.push_back(lefts[s].clips[c]);
-          of_other.fast.push_back(lefts[s].fast[c]);
+      const auto errors = EvaluateAll(context, both, smoothings, options);
+      for (size_t s = 0; s < errors.size(); ++s) {
+        for (size_t c = 0; c < errors[s].clips.size(); ++c) {
+          const bool of_a = errors[s].clips[c].name.starts_with(folds[a].name + "/");
+          SmoothingErrors& of_other = others[folds[of_a ? b : a].name][s];
+          of_other.clips.push_back(errors[s].clips[c]);
+          of_other.fast.push_back(errors[s].fast[c]);
         }
       }
     }
@@ -200,13 +200,13 @@ std::map<std::string, std::vector<Left>> EvaluateOnOthers(
 
 /// The smoothing with the least acceleration error among those that do not increase position
 /// errors, also of fast joints; the first one if there is none.
-size_t ChooseLag(const std::vector<Left>& lefts, size_t begin, size_t end) {
+size_t ChooseLag(const std::vector<SmoothingErrors>& errors, size_t begin, size_t end) {
   const auto of = [&](size_t s, std::optional<double> ClipMetrics::*member) {
-    return Average(lefts[s].clips, member).value_or(std::numeric_limits<double>::infinity());
+    return Average(errors[s].clips, member).value_or(std::numeric_limits<double>::infinity());
   };
   size_t chosen = begin;
   for (size_t s = begin + 1; s < end; ++s) {
-    bool unchanged = MeanFast_cm(lefts[s]) <= kAllowed * MeanFast_cm(lefts[begin]);
+    bool unchanged = MeanFast_cm(errors[s]) <= kAllowed * MeanFast_cm(errors[begin]);
     for (const auto member :
          {&ClipMetrics::parent_relative_error_cm, &ClipMetrics::offset_removed_error_cm}) {
       unchanged = unchanged && of(s, member) <= kAllowed * of(begin, member);
@@ -223,16 +223,16 @@ std::string TextOf(const Smoothing& s) {
   return fmt::format("{:g} ms, {:g} cm", 1000.0 * s.lag.sigma_s, 100.0 * s.lag.alike_m);
 }
 
-std::vector<std::string> RowOf(const std::string& name, const Left& left, double of_raw,
-                               const std::string& chosen) {
+std::vector<std::string> RowOf(const std::string& name, const SmoothingErrors& result,
+                               double of_raw, const std::string& chosen) {
   const auto member = &ClipMetrics::acceleration_error_cm_per_frame2;
-  const double change = 100.0 * (Average(left.clips, member).value_or(0.0) / of_raw - 1.0);
+  const double change = 100.0 * (Average(result.clips, member).value_or(0.0) / of_raw - 1.0);
   return {name,
-          MeanAndMedian(left.clips, &ClipMetrics::mean_joint_error_cm),
-          MeanAndMedian(left.clips, &ClipMetrics::parent_relative_error_cm),
-          MeanAndMedian(left.clips, &ClipMetrics::offset_removed_error_cm),
-          fmt::format("{:.2f}", MeanFast_cm(left)),
-          MeanAndMedian(left.clips, member),
+          MeanAndMedian(result.clips, &ClipMetrics::mean_joint_error_cm),
+          MeanAndMedian(result.clips, &ClipMetrics::parent_relative_error_cm),
+          MeanAndMedian(result.clips, &ClipMetrics::offset_removed_error_cm),
+          fmt::format("{:.2f}", MeanFast_cm(result)),
+          MeanAndMedian(result.clips, member),
           fmt::format("{:+.0f}", change),
           chosen};
 }
@@ -240,8 +240,8 @@ std::vector<std::string> RowOf(const std::string& name, const Left& left, double
 /// Errors of every smoothing, and of the smoothing of each family that was chosen on other people.
 struct LagStudy {
   std::vector<Smoothing> smoothings;               // of all families, one after the other
-  std::vector<Left> fixed;                         // one entry per smoothing, over all people
-  std::vector<Left> nested;                        // one per family, each person's choice
+  std::vector<SmoothingErrors> fixed;              // one entry per smoothing, over all people
+  std::vector<SmoothingErrors> nested;             // one per family, each person's choice
   std::vector<std::map<std::string, int>> chosen;  // one per family: people by chosen smoothing
 };
 
@@ -258,13 +258,13 @@ LagStudy EvaluateNested(ExperimentContext& context, const std::vector<Fold>& fol
   study.chosen.resize(families.size());
   const auto others = EvaluateOnOthers(context, folds, study.smoothings, options, every);
   for (const Fold& fold : folds) {
-    const auto lefts = EvaluateAll(context, fold, study.smoothings, options);
-    for (size_t s = 0; s < lefts.size(); ++s) AddLeft(lefts[s], study.fixed[s]);
+    const auto errors = EvaluateAll(context, fold, study.smoothings, options);
+    for (size_t s = 0; s < errors.size(); ++s) Append(errors[s], study.fixed[s]);
     size_t begin = 0;
     for (size_t k = 0; k < families.size(); ++k) {
       const size_t end = begin + families[k].smoothings.size();
       const size_t best = ChooseLag(others.at(fold.name), begin, end);
-      AddLeft(lefts[best], study.nested[k]);
+      Append(errors[best], study.nested[k]);
       ++study.chosen[k][TextOf(study.smoothings[best])];
       begin = end;
     }
@@ -275,7 +275,7 @@ LagStudy EvaluateNested(ExperimentContext& context, const std::vector<Fold>& fol
 /// `full`: with a row for each smoothing, too.
 std::vector<std::vector<std::string>> LagRows(const LagStudy& study,
                                               const std::vector<Family>& families, bool full) {
-  const std::vector<Left>& fixed = study.fixed;
+  const std::vector<SmoothingErrors>& fixed = study.fixed;
   const double of_raw =
       Average(fixed[0].clips, &ClipMetrics::acceleration_error_cm_per_frame2).value_or(1.0);
   std::vector<std::vector<std::string>> rows;

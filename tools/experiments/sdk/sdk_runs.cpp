@@ -30,7 +30,7 @@ constexpr std::array kKept = {&ClipMetrics::mean_joint_error_cm,
                               &ClipMetrics::bone_length_variation_percent,
                               &ClipMetrics::fraction_frames_over_20cm};
 
-nlohmann::json ToJson(const ClipMetrics& clip) {
+nlohmann::json ClipToJson(const ClipMetrics& clip) {
   nlohmann::json numbers = {clip.name, clip.frames};
   for (const auto member : kKept) {
     const auto& value = clip.*member;
@@ -39,7 +39,7 @@ nlohmann::json ToJson(const ClipMetrics& clip) {
   return numbers;
 }
 
-ClipMetrics FromJson(const nlohmann::json& numbers) {
+ClipMetrics ClipFromJson(const nlohmann::json& numbers) {
   ClipMetrics clip;
   clip.name = numbers.at(0).get<std::string>();
   clip.frames = numbers.at(1).get<int64_t>();
@@ -153,13 +153,13 @@ FoldScore TestFold(const Fold& fold, const std::string& method,
 
 nlohmann::json ClipsToJson(const std::vector<ClipMetrics>& clips) {
   auto json = nlohmann::json::array();
-  for (const ClipMetrics& clip : clips) json.push_back(ToJson(clip));
+  for (const ClipMetrics& clip : clips) json.push_back(ClipToJson(clip));
   return json;
 }
 
 std::vector<ClipMetrics> ClipsFromJson(const nlohmann::json& json) {
   std::vector<ClipMetrics> clips;
-  for (const auto& clip : json) clips.push_back(FromJson(clip));
+  for (const auto& clip : json) clips.push_back(ClipFromJson(clip));
   return clips;
 }
 

@@ -8,6 +8,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/lower_case.h"
+#include "depth/base/statistics.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
 #include "recon/motion/mocap.h"
@@ -114,7 +115,7 @@ void AddRows(const std::string& sensor, const std::optional<SensorStatistics>& r
         {sensor, quantity, real ? NumberCell(value(*real)) : "-", NumberCell(value(made))});
   };
   for (size_t b = 0; b < kSensorBandCount; ++b) {
-    const auto residual = [b](const SensorStatistics& s) { return Median(s.residuals_mm[b]); };
+    const auto residual = [b](const SensorStatistics& s) { return MedianOrNan(s.residuals_mm[b]); };
     if (std::isnan(residual(made)) && (!real || std::isnan(residual(*real)))) continue;
     row(fmt::format("plane residual at {} to {} m, mm", kSensorBands_m[b], kSensorBands_m[b + 1]),
         residual);
@@ -181,8 +182,8 @@ std::vector<Table> RunSensor(ExperimentContext& context) {
     bands.rows.push_back({fmt::format("{} to {}", kSensorBands_m[b], kSensorBands_m[b + 1]),
                           NumberCell(StepOverSquare(real.readings_mm[b])),
                           NumberCell(StepOverSquare(made.readings_mm[b])),
-                          NumberCell(Median(real.residuals_mm[b])),
-                          NumberCell(Median(made.residuals_mm[b]))});
+                          NumberCell(MedianOrNan(real.residuals_mm[b])),
+                          NumberCell(MedianOrNan(made.residuals_mm[b]))});
   }
   Table holes{"What is not read",
               {"quantity", "real", "rendered"},
@@ -195,8 +196,9 @@ std::vector<Table> RunSensor(ExperimentContext& context) {
     holes.rows.push_back({name, NumberCell(quantity(real)), NumberCell(quantity(made))});
   };
   row("shadow at the left of the near surface",
-      [](const SensorStatistics& s) { return Median(s.left_shadows); });
-  row("shadow at its right", [](const SensorStatistics& s) { return Median(s.right_shadows); });
+      [](const SensorStatistics& s) { return MedianOrNan(s.left_shadows); });
+  row("shadow at its right",
+      [](const SensorStatistics& s) { return MedianOrNan(s.right_shadows); });
   row("single pixels missing in a surface, of 10 000", [](const SensorStatistics& s) {
     return 1e4 * static_cast<double>(s.pinholes) / static_cast<double>(s.readings);
   });

@@ -79,11 +79,6 @@ void CountEdge(const uint16_t* middle, SensorStatistics& statistics) {
 
 }  // namespace
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  return ossa::Median(std::move(values));
-}
-
 void Gather(const depth::Image<uint16_t>& image, double focal_px, SensorStatistics& statistics) {
   statistics.pixels += static_cast<int64_t>(image.data.size());
   for (int v = 2; v + 2 < image.height; ++v) {
@@ -116,7 +111,7 @@ double StepOverSquare(std::vector<uint16_t> readings_mm) {
     const double z = readings_mm[i], step = z - readings_mm[i - 1];
     if (step > 0) steps.push_back(1e6 * step / (z * z));
   }
-  return Median(std::move(steps));
+  return MedianOrNan(std::move(steps));
 }
 
 std::string NumberCell(double value) {

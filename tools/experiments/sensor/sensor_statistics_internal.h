@@ -30,9 +30,6 @@ struct SensorStatistics {
 /// Adds a frame. `focal_px`: focal length of the camera.
 void Gather(const depth::Image<uint16_t>& image, double focal_px, SensorStatistics& statistics);
 
-/// NaN if `values` is empty.
-double Median(std::vector<double> values);
-
 /// The median difference between successive readings that occur, over the square of the distance,
 /// 1e-6 / mm: constant for a sensor that measures disparities in steps.
 double StepOverSquare(std::vector<uint16_t> readings_mm);
