@@ -53,7 +53,7 @@ std::vector<DepthFrame> FramesOf(FrameSource& source) {
 
 class Bags : public testing::TestWithParam<CompressionType> {};
 
-TEST_P(Bags, GiveDepthCameraAndTimes) {
+TEST_P(Bags, ContainDepthCameraAndTimes) {
   const test::TemporaryFolder folder;
   WriteBag(folder / "x.bag", GetParam());
   const auto source = OpenSource(folder / "x.bag");
@@ -79,13 +79,13 @@ void WriteBagWithInfo(const std::string& path, uint32_t width, uint32_t height) 
   bag.close();
 }
 
-TEST(Bag, ACameraInfoOfLargerImagesIsScaled) {
+TEST(Bag, ScalesCameraInfoOfLargerImages) {
   const test::TemporaryFolder folder;
   WriteBagWithInfo(folder / "x.bag", 640, 320);
   EXPECT_EQ(OpenSource(folder / "x.bag")->camera(), (Camera{4, 2, 2.5, 2.5, 2, 1}));
 }
 
-TEST(Bag, ACameraInfoOfImagesOfAnotherShapeIsPassedOverWithANote) {
+TEST(Bag, IgnoresCameraInfoOfAnotherAspectRatioWithANote) {
   const test::TemporaryFolder folder;
   WriteBagWithInfo(folder / "x.bag", 512, 424);
   std::string notes;
@@ -112,7 +112,7 @@ std::string WriteBagWithLens(const test::TemporaryFolder& folder, const std::str
   return path;
 }
 
-TEST(Bag, TheLensOfRawImagesIsUndone) {
+TEST(Bag, UndistortsRawImages) {
   const test::TemporaryFolder folder;
   const auto source = OpenSource(WriteBagWithLens(folder, "image_raw"), {.depth_scale = 1000.0});
   const auto frames = FramesOf(*source);
@@ -123,7 +123,7 @@ TEST(Bag, TheLensOfRawImagesIsUndone) {
   EXPECT_EQ(frames[0].depth_mm[24 * 64 + 32], 1032);
 }
 
-TEST(Bag, OfRectifiedImagesItIsUndoneAlready) {
+TEST(Bag, DoesNotUndistortRectifiedImages) {
   const test::TemporaryFolder folder;
   const auto frames =
       FramesOf(*OpenSource(WriteBagWithLens(folder, "image_rect"), {.depth_scale = 1000.0}));
@@ -132,7 +132,7 @@ TEST(Bag, OfRectifiedImagesItIsUndoneAlready) {
 }
 
 // The leftover of a killed `rosbag record`.
-TEST(Bag, OneThatIsStillActiveSaysHowItIsMended) {
+TEST(Bag, NamesTheRepairCommandForActiveBags) {
   const test::TemporaryFolder folder;
   rosbag::Bag bag;
   bag.open(folder / "x.bag.active", rosbag::bagmode::Write);
@@ -144,7 +144,7 @@ TEST(Bag, OneThatIsStillActiveSaysHowItIsMended) {
   EXPECT_EQ(FramesOf(*OpenSource(folder / "x.bag.active")).size(), 1u);
 }
 
-TEST(Bag, OneThatIsCutShortSaysSo) {
+TEST(Bag, ReportsTruncation) {
   const test::TemporaryFolder folder;
   WriteBag(folder / "x.bag", CompressionType::Uncompressed);
   const auto size = std::filesystem::file_size(folder / "x.bag");
@@ -157,7 +157,7 @@ std::string Content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Bag, AFileThatIsNoBagSaysSo) {
+TEST(Bag, RefusesAFileThatIsNotABag) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "text.bag") << "no bag, a text of some length\n";
   std::ofstream(folder / "empty.bag");
@@ -166,7 +166,7 @@ TEST(Bag, AFileThatIsNoBagSaysSo) {
   test::ExpectRefused([&] { OpenSource(folder / "empty.bag"); }, "found an empty file");
 }
 
-TEST(Bag, OfLinkedLz4BlocksSaysWhatIsRead) {
+TEST(Bag, RefusesLinkedLz4BlocksAndNamesWhatIsSupported) {
   const test::TemporaryFolder folder;
   WriteBag(folder / "x.bag", CompressionType::LZ4);
   std::string bytes = Content(folder / "x.bag");
@@ -178,7 +178,7 @@ TEST(Bag, OfLinkedLz4BlocksSaysWhatIsRead) {
   test::ExpectRefused([&] { OpenSource(folder / "x.bag"); }, "PyPI's rosbags");
 }
 
-TEST(Bag, ManyDepthTopicsAreNoDamage) {
+TEST(Bag, ReadsFilesWithManyDepthTopics) {
   const test::TemporaryFolder folder;
   rosbag::Bag bag;
   bag.open(folder / "x.bag", rosbag::bagmode::Write);
@@ -199,7 +199,7 @@ void WriteBagOfStamps(const std::string& path, const std::vector<uint32_t>& stam
   bag.close();
 }
 
-TEST(Bag, FramesComeInTheOrderOfTheirStamps) {
+TEST(Bag, ReturnsFramesInTimestampOrder) {
   const test::TemporaryFolder folder;
   WriteBagOfStamps(folder / "x.bag", {1001, 1003, 1002, 1004});
   const auto frames = FramesOf(*OpenSource(folder / "x.bag"));
@@ -207,7 +207,7 @@ TEST(Bag, FramesComeInTheOrderOfTheirStamps) {
   for (size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].depth_mm[0], 1001 + i);
 }
 
-TEST(Bag, WhatStandsBeforeADamagedFrameIsGiven) {
+TEST(Bag, ReturnsTheFramesBeforeADamagedOne) {
   const test::TemporaryFolder folder;
   rosbag::Bag bag;
   bag.open(folder / "x.bag", rosbag::bagmode::Write);
@@ -225,7 +225,7 @@ TEST(Bag, WhatStandsBeforeADamagedFrameIsGiven) {
 }
 
 // Its time stamps count from 1970.
-TEST(Bag, AsALiveCameraBeginsAtOnce) {
+TEST(Bag, StartsAtOnceWhenPlayedAsALiveCamera) {
   const test::TemporaryFolder folder;
   WriteBagOfStamps(folder / "x.bag", {1'305'031'102, 1'305'031'103});
   const auto source = OpenSource("openni:ossa://" + (folder / "x.bag").string());
@@ -236,7 +236,7 @@ TEST(Bag, AsALiveCameraBeginsAtOnce) {
   EXPECT_EQ(read.status, ReadStatus::kFrame);
 }
 
-TEST(Bag, AFrameThatComesFarTooLateIsDroppedAndToldOf) {
+TEST(Bag, DropsFramesThatArriveFarTooLateWithANote) {
   const test::TemporaryFolder folder;
   std::vector<uint32_t> stamps;
   for (uint32_t i = 0; i < 20; ++i) stamps.push_back(1001 + i);
@@ -257,7 +257,7 @@ TEST(Bag, AFrameThatComesFarTooLateIsDroppedAndToldOf) {
   EXPECT_NE(notes.find("1 frames are left out"), std::string::npos) << notes;
 }
 
-TEST(Bag, WhereTheClockWasSetBackFramesGoOn) {
+TEST(Bag, ContinuesWhenTheClockIsSetBack) {
   const test::TemporaryFolder folder;
   std::vector<uint32_t> stamps;
   for (uint32_t i = 0; i < 20; ++i) stamps.push_back(1001 + i);
@@ -269,7 +269,7 @@ TEST(Bag, WhereTheClockWasSetBackFramesGoOn) {
   EXPECT_EQ(frames.back().depth_mm[0], 520);
 }
 
-TEST(Bag, ItsTopicsAreChosenAfterItsName) {
+TEST(Bag, TopicFollowsTheFileName) {
   const test::TemporaryFolder folder;
   WriteBag(folder / "x.bag", CompressionType::Uncompressed);
   const std::string name = folder / "x.bag";
@@ -282,7 +282,7 @@ TEST(Bag, ItsTopicsAreChosenAfterItsName) {
   EXPECT_EQ(FramesOf(*OpenSource(in_capitals))[0].depth_mm[0], 7);
 }
 
-TEST(Bag, OfTheRealSenseViewerStatesItsUnit) {
+TEST(Bag, ReadsTheDepthUnitOfTheRealSenseViewer) {
   const test::TemporaryFolder folder;
   rosbag::Bag bag;
   bag.open(folder / "x.bag", rosbag::bagmode::Write);
@@ -293,7 +293,7 @@ TEST(Bag, OfTheRealSenseViewerStatesItsUnit) {
   EXPECT_EQ(FramesOf(*OpenSource(folder / "x.bag"))[0].depth_mm[0], 1000);
 }
 
-TEST(Bag, WithoutDepthNamesItsTopics) {
+TEST(Bag, WithoutDepthListsTheTopics) {
   const test::TemporaryFolder folder;
   rosbag::Bag bag;
   bag.open(folder / "x.bag", rosbag::bagmode::Write);

@@ -67,7 +67,7 @@ void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
 
 class DamagedOni : public testing::TestWithParam<Damage> {};
 
-TEST_P(DamagedOni, IsOneLineThatNamesTheFile) {
+TEST_P(DamagedOni, IsRefusedInOneLineThatNamesTheFile) {
   const TemporaryFolder folder;
   std::string bytes = Recording(folder / "x.oni");
   GetParam().apply(bytes);
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
                "OpenNI2 cannot open it"}),
     [](const auto& info) { return std::string(info.param.name); });
 
-TEST(ForeignOni, FlippedBitsInItsHeaderNeverReachUs) {
+TEST(ForeignOni, FlippedHeaderBitsAreContainedInTheReaderProcess) {
   const TemporaryFolder folder;
   std::string whole = Recording(folder / "x.oni");
   Unseal(&whole);
@@ -136,7 +136,7 @@ std::string CroppedRecording(const std::filesystem::path& path, uint16_t left, u
 }
 
 // A mirrored image is turned back, and the window in it.
-TEST(ForeignOni, OfACroppedImageHasTheWholeOnesCameraShifted) {
+TEST(ForeignOni, CroppedImagesShiftTheCamera) {
   const TemporaryFolder folder;
   const std::string path = (folder / "x.oni").string();
   const Camera whole = KinectV1Camera(64, 48);
@@ -158,7 +158,7 @@ TEST(ForeignOni, OfACroppedImageHasTheWholeOnesCameraShifted) {
   }
 }
 
-TEST(ForeignOni, OfAKilledRecorderPlaysAsFarAsItGoes) {
+TEST(ForeignOni, UnfinishedRecordingPlaysItsCompleteFrames) {
   const TemporaryFolder folder;
   std::string bytes = Recording(folder / "x.oni");
   Unseal(&bytes);
@@ -195,17 +195,17 @@ Outcome PlayWith(const std::string& script, milliseconds patience) {
   return outcome;
 }
 
-TEST(OniPlayer, ThatCrashesIsOneLine) {
+TEST(OniPlayer, CrashIsReportedInOneLine) {
   EXPECT_NE(PlayWith("kill -SEGV $$", milliseconds(60000)).error.find("crashed on it (signal 11)"),
             std::string::npos);
 }
 
-TEST(OniPlayer, ThatHangsIsOneLine) {
+TEST(OniPlayer, HangIsReportedInOneLine) {
   EXPECT_NE(PlayWith("exec sleep 100", milliseconds(200)).error.find("hangs on it"),
             std::string::npos);
 }
 
-TEST(OniPreamble, WithACameraThatCannotBeHasNone) {
+TEST(OniPreamble, InvalidCameraIsIgnored) {
   const TemporaryFolder folder;
   std::string bytes = Recording(folder / "x.oni");
   const auto parse = [&] {
@@ -216,7 +216,7 @@ TEST(OniPreamble, WithACameraThatCannotBeHasNone) {
   EXPECT_FALSE(parse().camera);
 }
 
-TEST(OniPreamble, OfAnyPrefixIsParsedWithinItsBytes) {
+TEST(OniPreamble, ParsingAnyPrefixStaysWithinItsBytes) {
   const TemporaryFolder folder;
   const std::string bytes = Recording(folder / "x.oni");
   const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());

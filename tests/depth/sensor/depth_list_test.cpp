@@ -5,7 +5,7 @@
 namespace ossa::depth {
 namespace {
 
-TEST(DepthList, IsSecondsAndFilesInOrderOfTime) {
+TEST(DepthList, IsSortedByTimeInSeconds) {
   const DepthList list = ParseDepthList(
       "# depth maps\n# timestamp filename\n1305031102.260407 depth/b.png\r\n"
       "1305031102.160407 depth/a.png\n\n");
@@ -16,7 +16,7 @@ TEST(DepthList, IsSecondsAndFilesInOrderOfTime) {
   EXPECT_TRUE(list.bad_lines.empty());
 }
 
-TEST(DepthList, TimesInOtherUnitsAreSeconds) {
+TEST(DepthList, ConvertsTimesToSeconds) {
   const std::vector<std::pair<const char*, double>> lists = {
       {"10.5 a\n10.6 b\n12.5 c", 1.0},
       {"7 a\n8 b\n9 c", 1.0},  // a frame a second
@@ -31,13 +31,13 @@ TEST(DepthList, TimesInOtherUnitsAreSeconds) {
   }
 }
 
-TEST(DepthList, LinesThatAreNoneAreNumbered) {
+TEST(DepthList, ReportsMalformedLinesByNumber) {
   const DepthList list = ParseDepthList("1 a.png\nhello\nnan b.png\n2x c.png\n3 d.png");
   EXPECT_EQ(list.entries.size(), 2u);
   EXPECT_EQ(list.bad_lines, (std::vector<int>{2, 3, 4}));
 }
 
-TEST(DepthList, AByteOrderMarkIsNoPartOfTheFirstLine) {
+TEST(DepthList, IgnoresAByteOrderMark) {
   const DepthList list = ParseDepthList(
       "\xEF\xBB\xBF"
       "1.5 a.png\n2.5 b.png\n");

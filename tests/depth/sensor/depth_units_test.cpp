@@ -61,7 +61,7 @@ struct Case {
 
 class DepthsOfOtherKinds : public testing::TestWithParam<Case> {};
 
-TEST_P(DepthsOfOtherKinds, AreKnownAndTheOptionReadsThem) {
+TEST_P(DepthsOfOtherKinds, AreRefusedAndTheNamedOptionReadsThem) {
   const auto suspicion = Judged(Changed(GetParam().change));
   ASSERT_TRUE(suspicion.has_value());
   EXPECT_EQ(suspicion->option, GetParam().option);
@@ -93,17 +93,17 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"inverted", [](int mm) { return 65535 - mm; }, "--depth-format inverted", 0}),
     [](const auto& info) { return std::string(info.param.what); });
 
-TEST(DepthCensus, MillimetresAreNotSuspected) { EXPECT_FALSE(Judged(RoomFrame()).has_value()); }
+TEST(DepthCensus, DoesNotSuspectMillimetres) { EXPECT_FALSE(Judged(RoomFrame()).has_value()); }
 
 // As written by a renderer without a background.
-TEST(DepthCensus, SaturatedNumbersAroundAPersonAreNoInvertedDepths) {
+TEST(DepthCensus, DoesNotTakeASaturatedBackgroundForInvertedDepths) {
   for (const int farthest_mm : {2600, 4200, 6000}) {
     const auto suspicion = Judged(Changed([&](int mm) { return mm < farthest_mm ? mm : 65535; }));
     EXPECT_FALSE(suspicion) << suspicion->looks;
   }
 }
 
-TEST(DepthCoding, ASaturatedNumberIsNoReading) {
+TEST(DepthCoding, SaturatedValuesAreNoReading) {
   for (const double units_per_metre : {1000.0, 4000.0, 10000.0}) {
     const auto table = MillimetreTable({.units_per_metre = units_per_metre});
     EXPECT_EQ(table[65535], 0) << units_per_metre;
@@ -111,31 +111,31 @@ TEST(DepthCoding, ASaturatedNumberIsNoReading) {
   }
 }
 
-TEST(DepthCensus, ShiftsWithoutAHoleAreKnown) {
+TEST(DepthCensus, RecognisesDisparitiesWithoutHoles) {
   const auto suspicion = Judged(Changed([](int mm) { return KinectShift(mm == 0 ? 3000 : mm); }));
   ASSERT_TRUE(suspicion.has_value());
   EXPECT_EQ(suspicion->option, "--depth-format disparity");
 }
 
-TEST(DepthCensus, DepthsThatNoCameraSeesAreRefusedWithoutAnOption) {
+TEST(DepthCensus, RefusesImpossibleDepthsWithoutSuggestingAnOption) {
   const auto suspicion = Judged(Changed([](int mm) { return mm > 3000 ? 40 : mm; }));
   ASSERT_TRUE(suspicion.has_value());
   EXPECT_EQ(suspicion->option, "");
 }
 
 // As in data sets of Kinect v2 depths that use all 16 bits for 4.5 m.
-TEST(DepthCensus, DepthsStretchedTo16BitsAreRefused) {
+TEST(DepthCensus, RefusesDepthsStretchedTo16Bits) {
   const auto suspicion = Judged(Changed([](int mm) { return std::min(mm * 65535 / 4500, 65535); }));
   ASSERT_TRUE(suspicion.has_value());
   EXPECT_NE(suspicion->looks.find("stretched"), std::string::npos) << suspicion->looks;
 }
 
-TEST(DepthCensus, AFarNumberForTheBackgroundIsNotSuspected) {
+TEST(DepthCensus, DoesNotSuspectALargeBackgroundValue) {
   const auto suspicion = Judged(Changed([](int mm) { return mm < 3000 ? mm : 60000; }));
   EXPECT_FALSE(suspicion) << suspicion->looks;
 }
 
-TEST(DepthCensus, TooLittleIsNotJudged) {
+TEST(DepthCensus, DoesNotDecideFromTooFewPixels) {
   DepthFrame frame = Changed([](int mm) { return mm / 10; });
   frame.depth_mm.resize(160 * 2);
   frame.camera.height = 2;
@@ -144,7 +144,7 @@ TEST(DepthCensus, TooLittleIsNotJudged) {
 
 // A level camera at 1 m, with a wall 3 m away, sees less floor than a window: the curvature comes
 // from the corner.
-TEST(DepthCensus, TheCornerOfAnEmptyRoomIsNotSuspected) {
+TEST(DepthCensus, DoesNotSuspectTheCornerOfAnEmptyRoom) {
   for (const double noise_m : {0.0, 0.0005}) {
     for (const double wall_m : {2.6, 2.8, 3.0, 3.2}) {
       tests::CapsuleScene scene;
@@ -158,7 +158,7 @@ TEST(DepthCensus, TheCornerOfAnEmptyRoomIsNotSuspected) {
 }
 
 // Noise-free, as from a simulator: values change along rows only at the edges of a box.
-TEST(DepthCensus, ABoxInAnExactRoomHasNoPlayersBits) {
+TEST(DepthCensus, DoesNotSuspectPlayerBitsInARenderedRoomWithABox) {
   tests::CapsuleScene scene;
   scene.planes = {{{0.0, 1.0, 0.0}, 1.0}, {{0.0, 0.0, -1.0}, 3.0}};
   scene.boxes = {{{-0.4, -0.2, 2.0}, {0.4, 0.5, 2.2}}};
@@ -201,7 +201,7 @@ DepthFrame TakenFrom(DepthFrame frame, int from_mm) {
 
 class TurnedRound : public testing::TestWithParam<Place> {};
 
-TEST_P(TurnedRound, ARoomIsKnownByItsFloorAndNotWithoutThat) {
+TEST_P(TurnedRound, InvertedRoomIsRecognisedByItsFloor) {
   const DepthFrame room = RoomFrom(GetParam());
   EXPECT_FALSE(Judged(room).has_value());
   const auto [least, most] = NearestAndFarthest(room);
@@ -239,7 +239,7 @@ DepthFrame PersonFrom(const Person& person) {
 
 class WithoutAFloor : public testing::TestWithParam<Person> {};
 
-TEST_P(WithoutAFloor, SomebodyTurnedRoundIsKnownByTheBodysRoundness) {
+TEST_P(WithoutAFloor, InvertedPersonIsRecognisedByTheBodysCurvature) {
   const DepthFrame person = PersonFrom(GetParam());
   EXPECT_FALSE(Judged(person).has_value());
   const auto [least, most] = NearestAndFarthest(person);
@@ -250,7 +250,7 @@ TEST_P(WithoutAFloor, SomebodyTurnedRoundIsKnownByTheBodysRoundness) {
   }
 }
 
-TEST_P(WithoutAFloor, CentimetresAreNotTakenForTurnedRound) {
+TEST_P(WithoutAFloor, CentimetresAreNotTakenForInvertedDepths) {
   DepthFrame person = PersonFrom(GetParam());
   for (uint16_t& depth : person.depth_mm) depth = static_cast<uint16_t>((depth + 5) / 10);
   const auto suspicion = Judged(person);
@@ -265,7 +265,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Person{2.5, 0.0, 160, false}, Person{2.5, 0.0015, 320, true},
                     Person{3.0, 0.0, 160, true}));
 
-TEST(DepthCensus, TwoPlayersBitsAreKnownOfPeopleCutOutToo) {
+TEST(DepthCensus, RecognisesPlayerBitsOfTwoCutOutPeople) {
   DepthFrame person = PersonFrom({2.5, 0.0015, 320, false});
   for (size_t i = 0; i < person.depth_mm.size(); ++i) {
     uint16_t& depth = person.depth_mm[i];  // a player left and another right of the middle
@@ -293,7 +293,7 @@ DepthFrame Cylinder(bool is_groove) {
   return frame;
 }
 
-TEST(BodyBulge, ACylinderIsRoundAndItsMouldHollow) {
+TEST(BodyBulge, CylinderIsConvexAndItsMouldConcave) {
   BodyBulge cylinder, mould;
   cylinder.Add(Cylinder(false).view());
   mould.Add(Cylinder(true).view());
@@ -301,7 +301,7 @@ TEST(BodyBulge, ACylinderIsRoundAndItsMouldHollow) {
   EXPECT_TRUE(mould.IsHollow() && !mould.IsRound());
 }
 
-TEST(BodyBulge, AFlatBoardIsNeither) {
+TEST(BodyBulge, FlatBoardIsNeitherConvexNorConcave) {
   DepthFrame board = Cylinder(false);
   for (uint16_t& depth : board.depth_mm) depth = static_cast<uint16_t>(depth > 0 ? 2000 : 0);
   BodyBulge bulge;
@@ -310,7 +310,7 @@ TEST(BodyBulge, AFlatBoardIsNeither) {
 }
 
 // As for a distant stationary person: the same accidental stretch in every image.
-TEST(BodyBulge, OneHollowStretchInEachOfManyImagesTellsNothing) {
+TEST(BodyBulge, OneConcaveRunPerImageIsNoEvidence) {
   const DepthFrame mould = Cylinder(true);
   DepthFrame board = mould;
   for (uint16_t& depth : board.depth_mm) depth = static_cast<uint16_t>(depth > 0 ? 2000 : 0);
@@ -322,7 +322,7 @@ TEST(BodyBulge, OneHollowStretchInEachOfManyImagesTellsNothing) {
 }
 
 // As for a person entering the image: at first only a hollow edge of a sleeve is visible.
-TEST(DepthCensus, AHollowThingInARoomThatBendsTheRightWayIsNotSuspected) {
+TEST(DepthCensus, DoesNotSuspectAConcaveObjectInAConsistentRoom) {
   tests::CapsuleScene scene;
   scene.planes = {{Eigen::Vector3d::UnitY(), 1.2}};
   DepthFrame room = tests::Render(scene, KinectV1Camera(160, 120)).frame;
@@ -337,7 +337,7 @@ TEST(DepthCensus, AHollowThingInARoomThatBendsTheRightWayIsNotSuspected) {
   EXPECT_FALSE(Judged(room).has_value());
 }
 
-TEST(DepthUnits, RenderedPeopleCutOutAndTurnedRoundAreRefused) {
+TEST(DepthUnits, RefusesInvertedCutOutsOfRenderedPeople) {
   for (const char* clip : {"one", "two"}) {
     const auto clips = test::SourceFolder() / "tests/golden/clips";
     const test::TemporaryFolder folder;
@@ -356,7 +356,7 @@ TEST(DepthUnits, RenderedPeopleCutOutAndTurnedRoundAreRefused) {
   }
 }
 
-TEST(DepthUnits, RenderedClipsTurnedRoundAreRefused) {
+TEST(DepthUnits, RefusesInvertedRenderedClips) {
   for (const char* clip : {"one", "two"}) {
     const test::TemporaryFolder folder;
     const auto source = OpenSource((test::SourceFolder() / "tests/golden/clips" / clip).string());
@@ -369,7 +369,7 @@ TEST(DepthUnits, RenderedClipsTurnedRoundAreRefused) {
   }
 }
 
-TEST(DepthCoding, NumbersTakenFromAnyAreTakenBack) {
+TEST(DepthCoding, InvertsFromAnyMaximum) {
   const auto table = MillimetreTable(ParseDepthFormat("inverted:8000"));
   EXPECT_EQ(table[8000 - 2500], 2500);
   EXPECT_EQ(table[0], 0);     // no reading,
@@ -377,13 +377,13 @@ TEST(DepthCoding, NumbersTakenFromAnyAreTakenBack) {
   EXPECT_EQ(table[9000], 0);  // ... behind the camera
 }
 
-TEST(DepthCoding, WhatIsNoFormatIsRefused) {
+TEST(DepthCoding, UnknownFormatsAreRefused) {
   for (const char* name : {"inverted:", "inverted:0", "inverted:65536", "inverted:1x", "upside"}) {
     test::ExpectRefused([&] { ParseDepthFormat(name); }, std::string("found '") + name + "'");
   }
 }
 
-TEST(DepthUnits, ASuspectIsRefusedWithTheOptionThatReadsIt) {
+TEST(DepthUnits, RefusesSuspectDepthsAndNamesTheOption) {
   const test::TemporaryFolder folder;
   const DepthFrame centimetres = Changed([](int mm) { return mm / 10; });
   WriteDepthPng(folder / "0.png", centimetres.view());
@@ -396,7 +396,7 @@ TEST(DepthUnits, ASuspectIsRefusedWithTheOptionThatReadsIt) {
   EXPECT_EQ(raw.frame.depth_mm[5000], centimetres.depth_mm[5000]);
 }
 
-TEST(DepthUnits, RealSensorsAreNotSuspected) {
+TEST(DepthUnits, DoesNotSuspectRealSensors) {
   const auto real = test::SharedFolder() / "real";
   if (!std::filesystem::is_directory(real)) GTEST_SKIP() << "not here: " << real;
   for (const char* name :

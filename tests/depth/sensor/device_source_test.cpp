@@ -63,7 +63,7 @@ struct LooksAtTheEnd {
   }
 } g_looks_at_the_end;
 
-TEST(DeviceDeathTest, EndsBeforeItsDriverDoesWhoeverHoldsIt) {
+TEST(DeviceDeathTest, StaticDeviceClosesBeforeItsDriver) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto hold = [] {
     {
@@ -78,7 +78,7 @@ TEST(DeviceDeathTest, EndsBeforeItsDriverDoesWhoeverHoldsIt) {
 }
 
 // OpenNI2 would play it as a device, without end.
-TEST(Device, IsNoneWhereTheUriIsARecording) {
+TEST(Device, UriOfARecordingPlaysItToItsEnd) {
   const TemporaryFolder folder;
   {
     OniRecorder recorder(folder / "x.oni", ExampleFrame(0).camera);
@@ -113,7 +113,7 @@ TEST(Device, DeliversTheFramesBitForBitAt30Hz) {
   }
 }
 
-TEST(Device, TellsItsExactCamera) {
+TEST(Device, ReportsItsExactCamera) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 3);
   const Camera camera{32, 24, 30.5, 31.25, 15.5, 11.5};
@@ -124,7 +124,7 @@ TEST(Device, TellsItsExactCamera) {
 }
 
 // A recording of mirrored images may be played as a device.
-TEST(Device, WhoseImagesAreMirroredShowsThemAsTheSensorLooks) {
+TEST(Device, MirroredOptionUnmirrorsImages) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   WriteCameraJson(folder / "camera.json", {32, 24, 30, 30, 14, 11.5});
@@ -137,7 +137,7 @@ TEST(Device, WhoseImagesAreMirroredShowsThemAsTheSensorLooks) {
 
 // Other OpenNI2 programs have no option of ours: the URI is all that they can say. The second frame
 // is of the second time round.
-TEST(Device, WhoseUriSaysThatItsImagesAreMirroredTurnsThemBack) {
+TEST(Device, MirroredUriUnmirrorsImages) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 1);
   WriteCameraJson(folder / "camera.json", {32, 24, 30, 30, 14, 11.5});
@@ -150,14 +150,14 @@ TEST(Device, WhoseUriSaysThatItsImagesAreMirroredTurnsThemBack) {
   }
 }
 
-TEST(Device, ThatMirrorsByDefaultIsToldNotTo) {
+TEST(Device, MirroringIsSwitchedOff) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   const auto source = OpenSource(Uri(folder, "?mirror=1&loop=1"));
   EXPECT_GE(NumberOf(NextFrame(*source).frame, 10), 0);
 }
 
-TEST(Device, ASlowReaderGetsTheNewestFrameAndTheNumberLost) {
+TEST(Device, SlowReadersGetTheNewestFrameAndTheDroppedCount) {
   const TemporaryFolder folder;
   constexpr int kFrames = 60;
   WriteExampleFolder(folder.path(), kFrames);
@@ -178,7 +178,7 @@ TEST(Device, ASlowReaderGetsTheNewestFrameAndTheNumberLost) {
   EXPECT_GT(dropped, 10);
 }
 
-TEST(Device, IsUnpluggedAndPluggedInAgainWithoutTheReaderNoticingMoreThanAGap) {
+TEST(Device, ReplugsWithNothingButAGap) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 8);
   const auto source =
@@ -210,7 +210,7 @@ TEST(Device, IsUnpluggedAndPluggedInAgainWithoutTheReaderNoticingMoreThanAGap) {
   EXPECT_GE(dropped, 3 * 8) << "each gap of 150 ms is 9 frames";
 }
 
-TEST(Device, ThatStopsDeliveringTimesOut) {
+TEST(Device, TimesOutWhenNoFramesArrive) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 10);
   const auto source = OpenSource(Uri(folder, "?stall_after=1"));
@@ -220,7 +220,7 @@ TEST(Device, ThatStopsDeliveringTimesOut) {
   EXPECT_GE(Clock::now() - began, milliseconds(250));
 }
 
-TEST(Device, AtItsEndIsUnpluggedForGood) {
+TEST(Device, StaysUnpluggedAfterItsEnd) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 3);
   const auto source = OpenSource(Uri(folder));
@@ -232,7 +232,7 @@ TEST(Device, AtItsEndIsUnpluggedForGood) {
   EXPECT_EQ(source->Read(milliseconds(50)).status, ReadStatus::kDisconnected);
 }
 
-TEST(Device, AFrameItCannotReadIsADroppedFrame) {
+TEST(Device, UnreadableFramesCountAsDropped) {
   const TemporaryFolder folder;
   constexpr int kFrames = 6;
   WriteExampleFolder(folder.path(), kFrames);
@@ -252,7 +252,7 @@ TEST(Device, AFrameItCannotReadIsADroppedFrame) {
 }
 
 // A stream's size is fixed: a later recording at the same path may have another.
-TEST(Device, FramesOfAnotherSizeThanItsStreamsAreNotDelivered) {
+TEST(Device, DropsFramesOfAnotherSizeThanTheStream) {
   const TemporaryFolder folder;
   for (const auto& [name, width] : {std::pair("large", 32), {"small", 16}}) {
     std::filesystem::create_directory(folder / name);
@@ -272,7 +272,7 @@ TEST(Device, FramesOfAnotherSizeThanItsStreamsAreNotDelivered) {
   EXPECT_EQ(result.status, ReadStatus::kDisconnected) << "as at the end of a recording";
 }
 
-TEST(Device, TwoAtOnceDoNotDisturbEachOther) {
+TEST(Device, TwoDevicesRunIndependently) {
   const TemporaryFolder a;
   const TemporaryFolder b;
   WriteExampleFolder(a.path(), 10);
@@ -283,7 +283,7 @@ TEST(Device, TwoAtOnceDoNotDisturbEachOther) {
   EXPECT_EQ(NextFrame(*second).frame.camera.width, 16);
 }
 
-TEST(Device, TheFirstIsNotTakenForAnotherAfterItWasUnplugged) {
+TEST(Device, FirstDeviceIsNotReplacedByAnotherAfterUnplugging) {
   const TemporaryFolder a, b;
   WriteExampleFolder(a.path(), 5);
   WriteExampleFolder(b.path(), 5, 16, 12);
@@ -302,7 +302,7 @@ TEST(Device, TheFirstIsNotTakenForAnotherAfterItWasUnplugged) {
 }
 
 // OpenNI2 changes to its drivers' folder before loading them.
-TEST(Device, OfARelativePathIsWhereTheProgramWasStarted) {
+TEST(Device, RelativePathsStartAtTheWorkingDirectory) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "clip");
   WriteExampleFolder(folder / "clip", 5);
@@ -316,7 +316,7 @@ TEST(Device, OfARelativePathIsWhereTheProgramWasStarted) {
   EXPECT_EQ(NextFrame(*source).frame.camera.width, 32);
 }
 
-TEST(Device, TheFirstGoesOnAfterItWasUnplugged) {
+TEST(Device, FirstDeviceContinuesAfterReplugging) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 8);
   const std::string options = "?loop=1&fps=60&unplug_after=6&replug_after_ms=150";
@@ -348,7 +348,7 @@ void OnAThreadThatEnds(std::function<void()> task) {
 
 // OpenNI2 checks whether every thread that ever called it is alive, which crashes in glibc for
 // ended threads: as in a program that opens its camera twice, each time on a new thread.
-TEST(Device, ThreadsThatUsedItMayEnd) {
+TEST(Device, OutlivesThreadsThatUsedIt) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 30);
   const std::string uri = Uri(folder, "?loop=1");
@@ -367,7 +367,7 @@ TEST(Device, ThreadsThatUsedItMayEnd) {
 }
 
 // Python's check for Ctrl-C has no effect on other threads.
-TEST(Device, WhoWaitsForItIsAskedOnTheirOwnThread) {
+TEST(Device, KeepWaitingIsCalledOnTheWaitingThread) {
   SourceOptions options;
   options.device_wait = std::chrono::minutes(1);
   std::vector<std::thread::id> asked;
@@ -380,7 +380,7 @@ TEST(Device, WhoWaitsForItIsAskedOnTheirOwnThread) {
 }
 
 // A forked process has the sources but none of the threads.
-TEST(LastingThread, InAForkedProcessWorkIsDoneByWhoeverAsks) {
+TEST(LastingThread, InAForkedProcessTheCallerDoesTheWork) {
   const BorrowedThread thread;
   int done = 0;
   thread->Run([&] { done = 1; });
@@ -396,7 +396,7 @@ TEST(LastingThread, InAForkedProcessWorkIsDoneByWhoeverAsks) {
   EXPECT_EQ(done, 1);
 }
 
-TEST(Device, ThatIsNotThereIsOneLineAfterTheWaitAsked) {
+TEST(Device, MissingDeviceIsOneLineAfterTheRequestedWait) {
   for (const char* name :
        {"openni:", "openni:ossa:///nowhere", "openni:ossa://x?bad=1", "openni:1d27/0601@1/2"}) {
     const auto began = Clock::now();

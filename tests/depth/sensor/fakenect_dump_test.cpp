@@ -23,7 +23,7 @@ std::string PictureIn(const std::filesystem::path& folder) {
   return "";
 }
 
-TEST(FakenectDump, OfABorrowedImageIsThatOfItsCopy) {
+TEST(FakenectDump, BorrowedImagesGiveTheSameDumpAsCopies) {
   const test::TemporaryFolder folder;
   const DepthFrame copy = test::ExampleFrame(0, 640, 480);
   DepthFrame borrowed;

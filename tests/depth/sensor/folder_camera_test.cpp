@@ -32,7 +32,7 @@ TEST(FolderSource, CameraIsTheOptionElseCameraJsonElseBySize) {
   EXPECT_THROW(OpenSource(folder.path().string()), InputError);
 }
 
-TEST(FolderSource, MirroredImagesComeAsTheSensorLooksWithTheCameraOfTheseImages) {
+TEST(FolderSource, UnmirrorsImagesAndTheirCamera) {
   const TemporaryFolder folder;
   Image<uint16_t> image(8, 6, 1000);
   image.at(1, 2) = 2000;
@@ -60,7 +60,7 @@ TEST(FolderSource, PresetsAreTheSameForMirroredImages) {
   EXPECT_EQ(OpenSource(folder.path().string(), options)->camera(), PresetCamera("kinect-v2", 8, 6));
 }
 
-TEST(FolderSource, ACameraTakenByTheImageSizeIsToldOf) {
+TEST(FolderSource, NotesACameraGuessedFromTheImageSize) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1, 512, 424);
   Notes notes;
@@ -70,7 +70,7 @@ TEST(FolderSource, ACameraTakenByTheImageSizeIsToldOf) {
 }
 
 // Folder layout of Open3D's recorders.
-TEST(FolderSource, TheCameraThatOpen3dWroteAboveItIsTaken) {
+TEST(FolderSource, ReadsAnOpen3dCameraInTheParentFolder) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "depth");
   WriteFrame(folder / "depth/000000.png", 1, 640, 480);
@@ -87,7 +87,7 @@ TEST(FolderSource, TheCameraThatOpen3dWroteAboveItIsTaken) {
 }
 
 // Folder layout of scene data sets.
-TEST(FolderSource, AMatrixOfNumbersAloneIsTakenIfItsCentreIsTheImages) {
+TEST(FolderSource, ReadsACameraMatrixIfItsCentreFitsTheImage) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "depth");
   std::filesystem::create_directories(folder / "intrinsic");
@@ -102,7 +102,7 @@ TEST(FolderSource, AMatrixOfNumbersAloneIsTakenIfItsCentreIsTheImages) {
   EXPECT_EQ(source->camera(), (Camera{640, 480, 577.5, 578.0, 319.0, 240.0}));
 }
 
-TEST(FolderSource, TheCalibrationThatRosSavedBesideItIsTakenAndItsLensToldOf) {
+TEST(FolderSource, ReadsARosCalibrationAndNotesItsDistortion) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1, 640, 480);
   std::ofstream(folder / "ost.yaml")
@@ -116,7 +116,7 @@ TEST(FolderSource, TheCalibrationThatRosSavedBesideItIsTakenAndItsLensToldOf) {
   EXPECT_TRUE(notes.Tell("ost.yaml: the lens moves the image's corners by ")) << notes.text;
 }
 
-TEST(FolderSource, ACameraOfImagesOfAnotherShapeIsWarnedOf) {
+TEST(FolderSource, WarnsOfACameraOfAnotherAspectRatio) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "in");
   WriteFrame(folder / "in/0.png", 1, 320, 240);
@@ -149,14 +149,14 @@ class DataSetSource : public testing::Test {
   const TemporaryFolder folder_;
 };
 
-TEST_F(DataSetSource, TakesTheManifestsCameraAndTheDepthFolder) {
+TEST_F(DataSetSource, UsesTheManifestsCameraAndTheDepthFolder) {
   const auto source = OpenSource(folder_.path().string());
   EXPECT_EQ(source->camera(), kCamera);
   EXPECT_EQ(Next(*source).frame.depth_mm[0], 42);
   EXPECT_EQ(CameraOf("depth/000000.png"), kCamera);
 }
 
-TEST_F(DataSetSource, AStillHasItsCameraHoweverItsPathIsWritten) {
+TEST_F(DataSetSource, SingleImageHasTheDataSetsCameraForAnySpellingOfThePath) {
   for (const char* name : {"depth/./000000.png", "depth/../depth/000000.png"}) {
     EXPECT_EQ(CameraOf(name), kCamera) << name;
   }

@@ -21,7 +21,7 @@ using test::TemporaryFolder;
 using test::ValuesOf;
 using test::WriteFrame;
 
-TEST(FolderSource, GivesFramesInNameOrderAt30HzAndThenTheEnd) {
+TEST(FolderSource, ReturnsFramesInNameOrderAt30HzThenEnds) {
   const TemporaryFolder folder;
   for (const char* name : {"b.png", "a.png", "c.png"}) {
     WriteFrame(folder / name, static_cast<uint16_t>(name[0]));
@@ -41,7 +41,7 @@ TEST(FolderSource, GivesFramesInNameOrderAt30HzAndThenTheEnd) {
   EXPECT_EQ(Next(*source).status, ReadStatus::kEnd);
 }
 
-TEST(FolderSource, AMissingNumberIsADroppedFrameAndTimePasses) {
+TEST(FolderSource, CountsMissingNumbersAsDroppedFrames) {
   const TemporaryFolder folder;
   for (const char* name : {"000003.png", "000004.png", "000007.png"}) WriteFrame(folder / name, 1);
   const auto source = OpenSource(folder.path().string());
@@ -53,7 +53,7 @@ TEST(FolderSource, AMissingNumberIsADroppedFrameAndTimePasses) {
   EXPECT_DOUBLE_EQ(third.frame.time_s, 4 / 30.0);
 }
 
-TEST(FolderSource, TheLargestNumberIsNoReading) {
+TEST(FolderSource, MaximumValueIsNoReading) {
   const TemporaryFolder folder;
   for (const auto& [name, value] : {std::pair("0.png", 65535), {"1.png", 65534}, {"2.png", 9}}) {
     WriteFrame(folder / name, static_cast<uint16_t>(value));
@@ -62,7 +62,7 @@ TEST(FolderSource, TheLargestNumberIsNoReading) {
   EXPECT_EQ(ValuesOf(*source), (std::vector<uint16_t>{0, 65534, 9}));
 }
 
-TEST(FolderSource, FramesComeInNaturalOrder) {
+TEST(FolderSource, ReturnsFramesInNaturalOrder) {
   const TemporaryFolder folder;
   for (const int number : {1, 2, 10, 9, 100}) {
     WriteFrame(folder / ("img_" + std::to_string(number) + ".png"), static_cast<uint16_t>(number));
@@ -71,7 +71,7 @@ TEST(FolderSource, FramesComeInNaturalOrder) {
   EXPECT_EQ(ValuesOf(*source), (std::vector<uint16_t>{1, 2, 9, 10, 100}));
 }
 
-TEST(FolderSource, AnUnreadableFrameIsSkippedCountedAndToldOf) {
+TEST(FolderSource, SkipsAndCountsUnreadableFramesWithAWarning) {
   const TemporaryFolder folder;
   std::ofstream(folder / "0.png") << "not a PNG";
   WriteFrame(folder / "1.png", 2);
@@ -93,13 +93,13 @@ TEST(FolderSource, AnUnreadableFrameIsSkippedCountedAndToldOf) {
   EXPECT_TRUE(notes.Tell("0.png: byte 0")) << notes.text;
 }
 
-TEST(FolderSource, WhereNoFrameCanBeReadTheFirstIsRefused) {
+TEST(FolderSource, RefusesTheFirstFrameIfNoneIsReadable) {
   const TemporaryFolder folder;
   std::ofstream(folder / "0.png") << "not a PNG";
   EXPECT_THROW(OpenSource(folder.path().string()), InputError);
 }
 
-TEST(FolderSource, AFrameOfAnotherSizeIsSkippedEvenTheFirst) {
+TEST(FolderSource, SkipsFramesOfAnotherSizeEvenTheFirst) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1, 16, 12);
   for (const char* name : {"1.png", "2.png"}) WriteFrame(folder / name, 1);
@@ -110,7 +110,7 @@ TEST(FolderSource, AFrameOfAnotherSizeIsSkippedEvenTheFirst) {
   EXPECT_TRUE(notes.Tell("0.png: expected 8x6 like the other frames, found 16x12")) << notes.text;
 }
 
-TEST(FolderSource, WhatIsNoDepthImageIsPassedOverWithANote) {
+TEST(FolderSource, SkipsOtherFilesWithANote) {
   const TemporaryFolder folder;
   for (const char* name : {"depth_0.png", "depth_1.png", "ir_0.png"}) WriteFrame(folder / name, 1);
   std::ofstream(folder / "._depth_0.png") << "Mac";
@@ -123,7 +123,7 @@ TEST(FolderSource, WhatIsNoDepthImageIsPassedOverWithANote) {
   EXPECT_TRUE(notes.Tell("passed over 4 files")) << notes.text;
 }
 
-TEST(FolderSource, TwoSequencesInOneFolderAreToldOf) {
+TEST(FolderSource, WarnsOfTwoSequencesInOneFolder) {
   const TemporaryFolder folder;
   for (const char* name : {"depth_0.png", "depth_1.png", "depth_raw_0.png"}) {
     WriteFrame(folder / name, 1);
@@ -137,14 +137,14 @@ TEST(FolderSource, TwoSequencesInOneFolderAreToldOf) {
       << notes.text;
 }
 
-TEST(FolderSource, ImagesThatAreNoneOfDepthAreRefusedByTheirKind) {
+TEST(FolderSource, RefusesImagesWithoutDepthByTheirKind) {
   const TemporaryFolder folder;
   WriteLabelPng(folder / "0.png", Image<uint8_t>(8, 6, 0));
   test::ExpectRefused([&] { OpenSource(folder.path().string()); },
                       "expected one channel of 16 bits, found grey of 8 bits");
 }
 
-TEST(FolderSource, TheFolderOfDepthBelowIsNamedWhereTheOneAboveIsGiven) {
+TEST(FolderSource, NamesTheDepthSubfolderOfAGivenParent) {
   const TemporaryFolder folder;
   const std::string name = folder.path().string();
   test::ExpectRefused([&] { OpenSource(name); }, "found none in it");
@@ -154,7 +154,7 @@ TEST(FolderSource, TheFolderOfDepthBelowIsNamedWhereTheOneAboveIsGiven) {
   test::ExpectRefused([&] { OpenSource(name); }, "found none in it, but in " + name + "/depth");
 }
 
-TEST(FolderSource, NamesInCapitalsAreFramesToo) {
+TEST(FolderSource, AcceptsFileNamesInCapitals) {
   const TemporaryFolder folder;
   EXPECT_FALSE(IsRecording(folder.path()));
   WriteFrame(folder / "000007.PNG", 70);

@@ -27,7 +27,7 @@ std::vector<double> TimesOf(FrameSource& source) {
   return times_s;
 }
 
-TEST(FolderSource, TimesInNamesAreTimes) {
+TEST(FolderSource, ReadsTimesFromNames) {
   const TemporaryFolder folder;
   for (const char* name :
        {"1305031102.175304.png", "1305031102.275304.png", "1305031104.275304.png"})
@@ -39,7 +39,7 @@ TEST(FolderSource, TimesInNamesAreTimes) {
 }
 
 // They may also be every thirtieth frame: the interpretation must be reported.
-TEST(FolderSource, NumbersThatAreTakenForTimesAreToldOf) {
+TEST(FolderSource, NotesNumbersThatAreReadAsTimes) {
   const TemporaryFolder folder;
   for (const char* name : {"0.png", "30.png", "60.png"}) WriteFrame(folder / name, 1);
   Notes notes;
@@ -49,7 +49,7 @@ TEST(FolderSource, NumbersThatAreTakenForTimesAreToldOf) {
 }
 
 // As printed by many programs.
-TEST(FolderSource, TimesWithoutTheirLastZerosAreInOrder) {
+TEST(FolderSource, SortsTimesWithoutTrailingZeros) {
   const TemporaryFolder folder;
   for (const char* name : {"7.0.png", "7.033.png", "7.067.png", "7.1.png"}) {
     WriteFrame(folder / name, 1);
@@ -63,7 +63,7 @@ TEST(FolderSource, TimesWithoutTheirLastZerosAreInOrder) {
   }
 }
 
-TEST(FolderSource, DepthTxtSaysWhatIsWhen) {
+TEST(FolderSource, ReadsTimesFromDepthTxt) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "depth");
   for (const char* name : {"b.png", "a.png", "c.png"}) {
@@ -78,7 +78,7 @@ TEST(FolderSource, DepthTxtSaysWhatIsWhen) {
 }
 
 // As from a program that dumps a matrix.
-TEST(FolderSource, AnotherProgramsDepthTxtIsPassedOverWithANote) {
+TEST(FolderSource, IgnoresAForeignDepthTxtWithANote) {
   const TemporaryFolder folder;
   std::ofstream(folder / "depth.txt") << "# rows\n1203 1204 1207\n1203 1204 1208\n";
   test::ExpectRefused([&] { OpenSource(folder.path().string()); },
@@ -89,7 +89,7 @@ TEST(FolderSource, AnotherProgramsDepthTxtIsPassedOverWithANote) {
   EXPECT_TRUE(notes.Tell("found line 2: '1204' and the like: passed over")) << notes.text;
 }
 
-TEST(FolderSource, FramesOfAListAreNotPassedOverHoweverTheFolderIsWritten) {
+TEST(FolderSource, FindsListedFramesForAnySpellingOfTheFolder) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "depth");
   WriteFrame(folder / "depth/a.png", 1);
@@ -99,13 +99,13 @@ TEST(FolderSource, FramesOfAListAreNotPassedOverHoweverTheFolderIsWritten) {
   EXPECT_FALSE(notes.Tell("passed over")) << notes.text;
 }
 
-TEST(FolderSource, FpsIsTheRateWhateverTheNamesSay) {
+TEST(FolderSource, FpsOptionOverridesTimesInNames) {
   const TemporaryFolder folder;
   for (const char* name : {"0.000.png", "0.033.png"}) WriteFrame(folder / name, 1);
   EXPECT_DOUBLE_EQ(TimesOf(*OpenSource(folder.path().string(), {.fps = 10.0}))[1], 0.1);
 }
 
-TEST(FolderSource, NumbersThatAreTimeStampsAreNotCounted) {
+TEST(FolderSource, DoesNotCountTimestampsAsFrameNumbers) {
   const TemporaryFolder folder;
   for (const char* name : {"d-1028.png", "d-1038.png"}) WriteFrame(folder / name, 1);
   const auto source = OpenSource(folder.path().string());

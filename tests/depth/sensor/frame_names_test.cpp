@@ -18,11 +18,11 @@ TEST(NaturalOrder, NumbersCompareAsNumbers) {
   EXPECT_FALSE(NaturalLess("img_2", "img_2"));
 }
 
-TEST(NaturalOrder, OfEqualNumbersOneComesFirst) {
+TEST(NaturalOrder, OrdersEqualNumbersConsistently) {
   EXPECT_NE(NaturalLess("01", "1"), NaturalLess("1", "01"));
 }
 
-TEST(StripNumbers, IsWhatIsLeftWithoutNumbers) {
+TEST(StripNumbers, RemovesDigits) {
   EXPECT_EQ(StripNumbers("Depth_0012"), "depth_");
   EXPECT_EQ(StripNumbers("frame-000001.depth"), "frame-.depth");
   EXPECT_EQ(StripNumbers("1305031102.175304"), "");
@@ -37,7 +37,7 @@ struct Case {
 
 class NamesOfFrames : public testing::TestWithParam<Case> {};
 
-TEST_P(NamesOfFrames, SayWhatTheyCan) {
+TEST_P(NamesOfFrames, AreReadAsTimesNumbersOrNeither) {
   const NamedTimes times = ReadTimesFromNames(GetParam().names);
   EXPECT_EQ(times.kind, GetParam().kind);
   if (times.kind == Kind::kTimes) {

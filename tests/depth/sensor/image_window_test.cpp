@@ -5,12 +5,12 @@
 namespace ossa::depth {
 namespace {
 
-TEST(ImageWindow, OfTheWholeImageHasItsCameraScaled) {
+TEST(ImageWindow, ScalingTheWholeImageScalesTheCamera) {
   EXPECT_EQ(CropToWindow(KinectV1Camera(640, 480), {320, 240, 0, 0, 320, 240}),
             KinectV1Camera(320, 240));
 }
 
-TEST(ImageWindow, OfAPartKeepsTheFocalLength) {
+TEST(ImageWindow, CroppingKeepsTheFocalLength) {
   EXPECT_EQ(CropToWindow(KinectV1Camera(640, 480), {640, 480, 320, 100, 160, 120}),
             (Camera{160, 120, 575, 575, 0, 140}));
   const Camera stated{0, 0, 525, 526, 319.5, 239.5};  // --camera is of the whole image, too
@@ -18,7 +18,7 @@ TEST(ImageWindow, OfAPartKeepsTheFocalLength) {
             (Camera{320, 240, 525, 526, -0.5, -0.5}));
 }
 
-TEST(ImageWindow, IsWithinItsImage) {
+TEST(ImageWindow, LiesInsideTheImage) {
   EXPECT_TRUE((ImageWindow{640, 480, 0, 0, 640, 480}).IsSane());
   EXPECT_TRUE((ImageWindow{640, 480, 639, 479, 1, 1}).IsSane());
   for (const ImageWindow& wrong : {ImageWindow{},

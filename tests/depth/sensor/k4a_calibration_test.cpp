@@ -17,7 +17,7 @@ std::string Calibration(const std::string& lens, const std::string& more = "") {
 
 constexpr const char* kNoLens = "0,0,0,0,0,0,0,0,0,0";
 
-TEST(K4aCalibration, IsThatOfTheModeOfTheSensor) {
+TEST(K4aCalibration, DependsOnTheDepthMode) {
   const Camera narrow = ReadK4aCalibration(Calibration(kNoLens), 640, 576).pinhole;
   EXPECT_NEAR(narrow.fx, 0.492 * 1024, 1e-9);
   EXPECT_NEAR(narrow.fy, 0.493 * 1024, 1e-9);
@@ -30,7 +30,7 @@ TEST(K4aCalibration, IsThatOfTheModeOfTheSensor) {
   EXPECT_NEAR(ReadK4aCalibration(Calibration(kNoLens), 1024, 1024).pinhole.cx, 511.5, 1e-9);
 }
 
-TEST(K4aCalibration, WithoutALensEveryPixelStaysButWhatTheRadiusLeavesOut) {
+TEST(K4aCalibration, WithoutDistortionOnlyPixelsBeyondTheRadiusAreLost) {
   const std::string calibration = Calibration(kNoLens, R"("MetricRadius":0.5,)");
   const auto map = UndistortionMap(ReadK4aCalibration(calibration, 320, 288));
   EXPECT_EQ(map[143 * 320 + 160], 143 * 320 + 160);
@@ -38,7 +38,7 @@ TEST(K4aCalibration, WithoutALensEveryPixelStaysButWhatTheRadiusLeavesOut) {
 }
 
 // r is mapped to r (1 + k1 r^2): larger displacements at larger r.
-TEST(K4aCalibration, ALensIsUndone) {
+TEST(K4aCalibration, UndistortsTheLens) {
   const LensCamera lens = ReadK4aCalibration(Calibration("-0.2,0,0,0,0,0,0,0,0,0"), 640, 576);
   const auto map = UndistortionMap(lens);
   const int u = 520, v = 332;
@@ -51,7 +51,7 @@ TEST(K4aCalibration, ALensIsUndone) {
   EXPECT_EQ(Undistorted(depth, map)[v * 640 + u], 1234);
 }
 
-TEST(K4aCalibration, OtherTextIsRefusedByWhatIsMissing) {
+TEST(K4aCalibration, RefusesOtherTextAndNamesWhatIsMissing) {
   const auto read = [](const std::string& text, int width = 640) {
     return [=] { ReadK4aCalibration(text, width, 576); };
   };

@@ -47,7 +47,7 @@ TEST(FakenectDump, IsIndexedOnlyWhenFinished) {
   EXPECT_THROW(FakenectDump(folder.path(), KinectV1Camera(640, 480)), InputError);
 }
 
-TEST(FakenectDump, IsOfAKinectsSize) {
+TEST(FakenectDump, HasTheSizeOfAKinectsImages) {
   const TemporaryFolder folder;
   EXPECT_THROW(FakenectDump(folder.path(), KinectV1Camera(320, 240)), InputError);
 }
@@ -59,7 +59,7 @@ const std::string kFakenect = "/usr/lib/aarch64-linux-gnu/fakenect";
 const std::string kFakenect = "/usr/lib/x86_64-linux-gnu/fakenect";
 #endif
 
-TEST(KinectDriver, TellsAnyOpenNi2ProgramSerialTiltAndAccelerometer) {
+TEST(KinectDriver, ProvidesSerialTiltAndAccelerometerToOpenNi2Programs) {
   const std::string probe = (test::BinaryFolder() / "bin/kinect_probe").string();
   if (!std::filesystem::is_directory(kFakenect) || !std::filesystem::exists(probe)) {
     GTEST_SKIP() << "no fakenect or no libfreenect: " << kFakenect;

@@ -45,7 +45,7 @@ class Mkv : public testing::Test {
   std::string path_ = folder_ / "x.mkv";
 };
 
-TEST_F(Mkv, GivesTheFramesThatWereWritten) {
+TEST_F(Mkv, ReturnsTheFramesThatWereWritten) {
   const Reading reading = ReadAll(path_);
   ASSERT_EQ(reading.frames.size(), 4u);
   EXPECT_TRUE(reading.warnings.empty()) << reading.warnings[0];
@@ -53,7 +53,7 @@ TEST_F(Mkv, GivesTheFramesThatWereWritten) {
   EXPECT_NEAR(reading.frames[3].time_s, 0.1, 1e-9);
 }
 
-TEST_F(Mkv, ThatIsCutGivesItsWholeFramesAndAWarning) {
+TEST_F(Mkv, TruncatedFileGivesItsCompleteFramesAndAWarning) {
   const auto size = std::filesystem::file_size(path_);
   for (const size_t missing : {size_t{1}, size_t{100}, size_t{7000}, size_t{12000}}) {
     std::filesystem::resize_file(path_, size - missing);
@@ -68,7 +68,7 @@ TEST_F(Mkv, ThatIsCutGivesItsWholeFramesAndAWarning) {
   }
 }
 
-TEST_F(Mkv, WhoseRecorderWasKilledGivesAWarning) {
+TEST_F(Mkv, UnfinishedRecordingGivesAWarning) {
   std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const size_t segment = bytes.find("\x18\x53\x80\x67");
@@ -82,7 +82,7 @@ TEST_F(Mkv, WhoseRecorderWasKilledGivesAWarning) {
   EXPECT_NE(reading.warnings[0].find("its recorder was stopped"), std::string::npos);
 }
 
-TEST(AzureKinectMkv, ThatIsCutGivesAWarning) {
+TEST(AzureKinectMkv, TruncationGivesAWarning) {
   const auto genuine = test::SharedFolder() / "real/recordings/azure_kinect.mkv";
   if (!std::filesystem::exists(genuine)) GTEST_SKIP() << "not here: " << genuine;
   const test::TemporaryFolder folder;

@@ -80,7 +80,7 @@ TEST(OniRecorder, OpenNi2PlaysBackEveryPixel) {
   EXPECT_EQ(source->Read(milliseconds(10)).status, ReadStatus::kEnd);
 }
 
-TEST(OniRecorder, KeepsTheExactCameraAndTheOddestSize) {
+TEST(OniRecorder, KeepsTheExactCameraAndOddSizes) {
   const TemporaryFolder folder;
   DepthFrame frame = ExampleFrame(0, 7, 3);
   frame.camera = {7, 3, 5.25, 5.5, 3.1, 1.7};
@@ -105,7 +105,7 @@ TEST(OniRecorder, TheSameFramesGiveTheSameBytes) {
   EXPECT_EQ(BytesOf(folder / "a.oni"), BytesOf(folder / "b.oni"));
 }
 
-TEST(OniRecorder, RefusesWhatTheFormatWouldCorrupt) {
+TEST(OniRecorder, RefusesValuesThatTheFormatCannotHold) {
   const TemporaryFolder folder;
   DepthFrame frame = HardFrames().front();
   OniRecorder recorder(folder / "x.oni", frame.camera);
@@ -129,7 +129,7 @@ TEST(OniRecorder, RefusesWhatTheFormatWouldCorrupt) {
   refused("expected 640x480, found 640x480 and 768 depths");
 }
 
-TEST(OniRecorder, WritesBorrowedImagesWhateverTheirRowsLieApart) {
+TEST(OniRecorder, WritesBorrowedImagesOfAnyStride) {
   const TemporaryFolder folder;
   const DepthFrame wide = ExampleFrame(0);
   DepthFrame frame;
@@ -144,7 +144,7 @@ TEST(OniRecorder, WritesBorrowedImagesWhateverTheirRowsLieApart) {
 }
 
 // Noise takes three bytes per pixel plus the table: too much only at the largest size.
-TEST(OniRecorder, RefusesAFrameThatComesOutLargerThanAPlayerHolds) {
+TEST(OniRecorder, RefusesFramesThatCompressToMoreThanAPlayersBuffer) {
   const TemporaryFolder folder;
   const auto noise = [](int width, int height) {
     DepthFrame frame;
@@ -161,7 +161,7 @@ TEST(OniRecorder, RefusesAFrameThatComesOutLargerThanAPlayerHolds) {
   test::ExpectRefused([&] { Record(folder / "x.oni", {too_large}); }, "x.oni: frame 0: expected");
 }
 
-TEST(OniRecorder, RefusesFramesNoPlayerHolds) {
+TEST(OniRecorder, RefusesFramesLargerThanAPlayersBuffer) {
   const TemporaryFolder folder;
   EXPECT_THROW(OniRecorder(folder / "x.oni", KinectV1Camera(4000, 3000)), InputError);
   EXPECT_THROW(OniRecorder(folder / "no/folder/x.oni", KinectV1Camera(4, 3)), InputError);
@@ -183,7 +183,7 @@ int64_t RecordWithin(uint64_t bytes, const std::filesystem::path& path, int fram
 
 // Whatever does not fit, a frame, its end or the file's end: the result is byte for byte a
 // recording of the frames that fit.
-TEST(OniRecorder, OnAFullDiskKeepsWhatFits) {
+TEST(OniRecorder, KeepsTheFramesThatFitOnAFullDisk) {
   const TemporaryFolder folder;
   constexpr int kFrames = 9;
   std::vector<std::string> whole = {""};
@@ -202,7 +202,7 @@ TEST(OniRecorder, OnAFullDiskKeepsWhatFits) {
   }
 }
 
-TEST(OniRecorder, LeavesNothingWithoutFinish) {
+TEST(OniRecorder, LeavesNoFileWithoutFinish) {
   const TemporaryFolder folder;
   OniRecorder(folder / "x.oni", ExampleFrame(0).camera).Write(ExampleFrame(0));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

@@ -21,7 +21,7 @@ using test::Next;
 using test::TemporaryFolder;
 using test::WriteFrame;
 
-TEST(OpenSource, OnePngIsAFrame) {
+TEST(OpenSource, ReadsASinglePng) {
   const TemporaryFolder folder;
   WriteFrame(folder / "000007.png", 70);
   WriteFrame(folder / "000008.PNG", 80);
@@ -44,7 +44,7 @@ TEST(OpenSource, OnePngIsAFrame) {
   EXPECT_THROW(OpenSource((folder / "none.png").string()), InputError);
 }
 
-TEST(SourceOptions, NumbersThatCannotBeAreRefused) {
+TEST(SourceOptions, InvalidNumbersAreRefused) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1);
   const std::string name = folder.path().string();
@@ -55,7 +55,7 @@ TEST(SourceOptions, NumbersThatCannotBeAreRefused) {
   test::ExpectRefused([&] { OpenSource(name, {.inverted_from = 0}); }, "inverted_from");
 }
 
-TEST(OpenSource, ARecordingThatIsNoFileSaysWhatItIs) {
+TEST(OpenSource, ReportsWhatANonRegularFileIs) {
   const TemporaryFolder folder;
   for (const char* name : {"pipe.oni", "pipe.mkv", "pipe.bag"}) {
     mkfifo((folder / name).c_str(), 0600);
@@ -64,7 +64,7 @@ TEST(OpenSource, ARecordingThatIsNoFileSaysWhatItIs) {
   test::ExpectRefused([&] { OpenSource((folder / "none.oni").string()); }, "no such file");
 }
 
-TEST(OpenSource, AFileOfAnotherKindIsNotSaidToBeMissing) {
+TEST(OpenSource, ReportsFilesOfAnotherKindAsSuch) {
   const TemporaryFolder folder;
   std::ofstream(folder / "depth.xyz") << "II*";
   test::ExpectRefused([&] { OpenSource((folder / "depth.xyz").string()); },
@@ -72,7 +72,7 @@ TEST(OpenSource, AFileOfAnotherKindIsNotSaidToBeMissing) {
   test::ExpectRefused([&] { OpenSource((folder / "none.xyz").string()); }, "no such thing");
 }
 
-TEST(OpenSource, WhatIsNotASourceIsOneLine) {
+TEST(OpenSource, RefusesOtherInputInOneLine) {
   const TemporaryFolder folder;
   for (const std::string& name : {std::string("/nowhere"), folder.path().string(), std::string()}) {
     try {
@@ -84,7 +84,7 @@ TEST(OpenSource, WhatIsNotASourceIsOneLine) {
   }
 }
 
-TEST(RealFrames, SkeltrackIsEightFramesOf640x480) {
+TEST(RealFrames, SkeltrackHasEightFramesOf640x480) {
   const std::string folder = test::SharedFolder() / "real/depth_frames/skeltrack_v1";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "not here: " << folder;
   const auto source = OpenSource(folder);

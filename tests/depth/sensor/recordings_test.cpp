@@ -53,14 +53,14 @@ TEST(AzureKinectMkv, IsReadWithItsCalibrationAndUndistorted) {
   EXPECT_LT(depths[depths.size() / 2], 4000);
 }
 
-TEST(AzureKinectMkv, ADamagedOneIsOneLine) {
+TEST(AzureKinectMkv, DamageIsRefusedInOneLine) {
   if (!HasReader("ossa_mkv_reader")) GTEST_SKIP() << "built without libavformat";
   const test::TemporaryFolder folder;
   std::ofstream(folder / "x.mkv") << "not Matroska";
   test::ExpectRefused([&] { OpenSource(folder / "x.mkv"); }, "expected a Matroska recording");
 }
 
-TEST(RosBag, ADamagedOneIsOneLine) {
+TEST(RosBag, DamageIsRefusedInOneLine) {
   if (!HasReader("ossa_bag_reader")) GTEST_SKIP() << "built without rosbag_storage";
   const test::TemporaryFolder folder;
   std::ofstream(folder / "x.bag") << "#ROSBAG V2.0\nthen nothing";
@@ -76,7 +76,7 @@ TEST(OpenNi1Oni, IsRead) {
   EXPECT_EQ(FramesOf(*source).size(), 12u);
 }
 
-TEST(OtherRecordings, SayHowToConvertThem) {
+TEST(OtherRecordings, AreRefusedWithAWayToConvertThem) {
   const test::TemporaryFolder folder;
   const std::vector<std::pair<const char*, const char*>> cases = {
       {"a.xef", "KinectXEFTools"},  {"a.MP4", "ffmpeg"},         {"a.mcap", "rosbags-convert"},
@@ -91,7 +91,7 @@ TEST(OtherRecordings, SayHowToConvertThem) {
   }
 }
 
-TEST(OtherImages, InAFolderWithoutOursSayHowToConvertThem) {
+TEST(OtherImages, AreRefusedWithAWayToConvertThem) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "depth_0.pgm") << "P5";
   test::ExpectRefused([&] { OpenSource(folder.path()); },

@@ -15,7 +15,7 @@ namespace {
 using test::RosCameraInfoBytes;
 using test::RosImageBytes;
 
-TEST(RosImage, ItsRowsBecomeDepths) {
+TEST(RosImage, ReadsRowsOfDepths) {
   const auto bytes =
       RosImageBytes("16UC1", 2, 2, {1, 2, 0xEE, 3, 4, 0xEE}, 6);  // a pixel of padding
   const RosImage image = ParseRosImage(bytes);
@@ -25,45 +25,45 @@ TEST(RosImage, ItsRowsBecomeDepths) {
   EXPECT_EQ(DecodeDepths(image, 0.01), (std::vector<uint16_t>{10, 20, 30, 40}));
 }
 
-TEST(RosImage, BytesInTheOtherOrderAreExchanged) {
+TEST(RosImage, SwapsBytesOfTheOtherOrder) {
   const auto bytes = RosImageBytes("mono16", 2, 1, {0x0100, 0x0002}, 4, true);
   EXPECT_EQ(DecodeDepths(ParseRosImage(bytes), 0), (std::vector<uint16_t>{1, 0x0200}));
 }
 
-TEST(RosImage, MetresBecomeMillimetresAndWhatIsNoneNothing) {
+TEST(RosImage, ConvertsMetresToMillimetresAndNanToNoReading) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto bytes = RosImageBytes("32FC1", 4, 1, std::vector<float>{1.5F, nan, -1.0F, 100.0F}, 16);
   EXPECT_EQ(DecodeDepths(ParseRosImage(bytes), 0), (std::vector<uint16_t>{1500, 0, 0, 0}));
 }
 
-TEST(RosImage, CutShortAnywhereItIsRefused) {
+TEST(RosImage, RefusesEveryTruncation) {
   const auto bytes = RosImageBytes("16UC1", 2, 1, {1, 2}, 4);
   for (size_t size = 0; size < bytes.size(); ++size) {
     test::ExpectRefused([&] { ParseRosImage(std::span(bytes).first(size)); }, "more bytes");
   }
 }
 
-TEST(RosImage, OneOfMorePixelsThanBytesIsRefused) {
+TEST(RosImage, RefusesMorePixelsThanBytes) {
   const auto bytes = RosImageBytes("16UC1", 2, 3, {1, 2}, 4);
   test::ExpectRefused([&] { DecodeDepths(ParseRosImage(bytes), 0); }, "2x3");
 }
 
-TEST(RosCameraInfo, IsACameraOfImagesOfItsSize) {
+TEST(RosCameraInfo, GivesTheCameraOfImagesOfItsSize) {
   const RosCameraInfo info = ParseRosCameraInfo(RosCameraInfoBytes(512, 424, 366));
   EXPECT_EQ(CameraOf(info, false, 512, 424), (Camera{512, 424, 366, 366, 256, 212}));
 }
 
-TEST(RosCameraInfo, IsScaledToImagesOfItsShape) {
+TEST(RosCameraInfo, IsScaledToImagesOfItsAspectRatio) {
   const RosCameraInfo info = ParseRosCameraInfo(RosCameraInfoBytes(640, 480, 570));
   EXPECT_EQ(CameraOf(info, false, 320, 240), (Camera{320, 240, 285, 285, 160, 120}));
 }
 
-TEST(RosCameraInfo, IsNoneOfImagesOfAnotherShapeOrWithoutCalibration) {
+TEST(RosCameraInfo, GivesNoCameraForAnotherAspectRatioOrWithoutCalibration) {
   EXPECT_FALSE(CameraOf(ParseRosCameraInfo(RosCameraInfoBytes(1920, 1080, 1400)), false, 640, 480));
   EXPECT_FALSE(CameraOf(ParseRosCameraInfo(RosCameraInfoBytes(640, 480, 0)), false, 640, 480));
 }
 
-TEST(RosCameraInfo, OfAPartOfTheImageIsCutOutOfTheWhole) {
+TEST(RosCameraInfo, RegionOfInterestShiftsTheCamera) {
   const RosCameraInfo info = ParseRosCameraInfo(RosCameraInfoBytes({.width = 640,
                                                                     .height = 480,
                                                                     .f = 570,
@@ -76,7 +76,7 @@ TEST(RosCameraInfo, OfAPartOfTheImageIsCutOutOfTheWhole) {
   EXPECT_EQ(CameraOf(info, false, 640, 480), (Camera{640, 480, 570, 570, 320, 240}));
 }
 
-TEST(RosCameraInfo, OfRectifiedImagesIsTheirOwn) {
+TEST(RosCameraInfo, RectifiedImagesUseTheProjectionMatrix) {
   const RosCameraInfo info = ParseRosCameraInfo(
       RosCameraInfoBytes({.width = 640, .height = 480, .f = 585, .rectified_f = 577}));
   EXPECT_EQ(CameraOf(info, true, 640, 480)->fx, 577);
@@ -90,7 +90,7 @@ RosCameraInfo InfoWithLens(const std::string& model, const std::vector<double>& 
       RosCameraInfoBytes({.width = 640, .height = 480, .f = 500, .lens_model = model, .lens = d}));
 }
 
-TEST(RosCameraInfo, StatesALensInOpenCvsOrder) {
+TEST(RosCameraInfo, HasDistortionInOpenCvsOrder) {
   const std::vector<double> d = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
   const auto lens = LensOf(InfoWithLens("rational_polynomial", d), KinectV1Camera(640, 480));
   ASSERT_TRUE(lens);
@@ -101,7 +101,7 @@ TEST(RosCameraInfo, StatesALensInOpenCvsOrder) {
   EXPECT_EQ(LensOf(InfoWithLens("plumb_bob", {0.1, 0.2, 0.3, 0.4}), {})->k3, 0.0);
 }
 
-TEST(RosCameraInfo, StatesNoLensThatBendsNothingOrIsOfAnotherModel) {
+TEST(RosCameraInfo, IgnoresZeroDistortionAndOtherModels) {
   EXPECT_FALSE(LensOf(InfoWithLens("plumb_bob", {0.0, 0.0, 0.0, 0.0, 0.0}), {}));
   EXPECT_FALSE(LensOf(InfoWithLens("", {}), {}));
   EXPECT_FALSE(LensOf(InfoWithLens("equidistant", {0.1, 0.0, 0.0, 0.0}), {}));
@@ -110,12 +110,12 @@ TEST(RosCameraInfo, StatesNoLensThatBendsNothingOrIsOfAnotherModel) {
 }
 
 // r (1 - 0.3 r^2) is largest where its slope 1 - 0.9 r^2 is 0.
-TEST(LensCamera, EndsWhereItFoldsBack) {
+TEST(LensCamera, EndsWhereTheDistortionIsNoLongerMonotonic) {
   EXPECT_NEAR(ComputeFoldingRadius({.pinhole = {}, .k1 = -0.3}), 1.054, 0.011);
   EXPECT_GT(ComputeFoldingRadius({.pinhole = {}, .k1 = 0.3}), 3.0);
 }
 
-TEST(RosTopic, OfRectifiedImagesSaysSoInItsLastWord) {
+TEST(RosTopic, RectifiedImagesAreRecognisedByTheLastWord) {
   for (const char* topic : {"/camera/depth/image_rect", "/a/image_rect_raw", "rect"}) {
     EXPECT_TRUE(IsRectified(topic)) << topic;
   }
@@ -130,7 +130,7 @@ const std::vector<BagTopic> kRealSense = {
     {"/device_0/sensor_1/Color_0/info/camera_info", "sensor_msgs/CameraInfo"},
     {"/device_0/sensor_0/option/Depth_Units/value", "std_msgs/Float32"}};
 
-TEST(BagTopics, OfTheRealSenseViewerAreKnown) {
+TEST(BagTopics, RecognisesTopicsOfTheRealSenseViewer) {
   const BagChoice choice = ChooseDepthTopic({kRealSense[0].name}, kRealSense, "");
   EXPECT_EQ(choice.image, kRealSense[0].name);
   EXPECT_EQ(choice.camera_info, kRealSense[1].name);
@@ -138,7 +138,7 @@ TEST(BagTopics, OfTheRealSenseViewerAreKnown) {
   EXPECT_TRUE(choice.notes.empty());
 }
 
-TEST(BagTopics, OneNamedAfterDepthGoesFirstAndTheOthersAreNamed) {
+TEST(BagTopics, PrefersATopicNamedDepthAndListsTheOthers) {
   const BagChoice choice = ChooseDepthTopic({"/ir", "/camera/depth/image", "/b/depth"}, {}, "");
   EXPECT_EQ(choice.image, "/b/depth");
   ASSERT_EQ(choice.notes.size(), 1u);
@@ -156,7 +156,7 @@ struct Infos {
 
 class CameraInfoTopics : public testing::TestWithParam<Infos> {};
 
-TEST_P(CameraInfoTopics, AreOfTheImagesOwnNamespaceFirst) {
+TEST_P(CameraInfoTopics, PreferTheImagesOwnNamespace) {
   std::vector<BagTopic> topics;
   for (const char* info : GetParam().infos) topics.push_back({info, "sensor_msgs/CameraInfo"});
   const BagChoice choice = ChooseDepthTopic({GetParam().image}, topics, "");
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
         Infos{"/camera1/depth/image", {"/camera2/depth/camera_info", "/camera_info"}, ""},
         Infos{"/depth_image", {"/camera_info", "/depth_2/camera_info"}, "/camera_info"}));
 
-TEST(BagTopics, OneThatIsNotThereIsRefusedWithThoseThatAre) {
+TEST(BagTopics, RefusesAMissingTopicAndListsTheExistingOnes) {
   test::ExpectRefused([] { ChooseDepthTopic({"/depth"}, {}, "/x"); }, "(/depth)");
   test::ExpectRefused([] { ChooseDepthTopic({}, {{"/scan", "x"}}, ""); }, "found /scan");
 }

@@ -69,7 +69,7 @@ Outcome ReadFrames(const std::filesystem::path& path) {
   return outcome;
 }
 
-TEST(UnfinishedOni, OfAKilledRecorderIsReadUnderItsTemporaryName) {
+TEST(UnfinishedOni, IsReadUnderItsTemporaryName) {
   const TemporaryFolder folder;
   OniRecorder recorder(folder / "x.oni", ExampleFrame(0, 8, 6).camera);
   for (int i = 0; i < kFrames; ++i) recorder.Write(ExampleFrame(i, 8, 6));
@@ -81,7 +81,7 @@ TEST(UnfinishedOni, OfAKilledRecorderIsReadUnderItsTemporaryName) {
 }
 
 // At every position: complete frames are read, with a note; without any, a one-line error.
-TEST(UnfinishedOni, CutAnywhereHasItsWholeFrames) {
+TEST(UnfinishedOni, EveryTruncationKeepsTheCompleteFrames) {
   const TemporaryFolder folder;
   const std::string whole = Recording(folder / "x.oni");
   const size_t head = HeadOf(whole);
@@ -94,7 +94,7 @@ TEST(UnfinishedOni, CutAnywhereHasItsWholeFrames) {
   EXPECT_EQ(ReadFrames(folder / "x.oni").frames, kFrames) << "all but the last byte";
 }
 
-TEST(UnfinishedOni, CutInItsHeadIsOneLine) {
+TEST(UnfinishedOni, TruncatedHeaderIsOneLine) {
   const TemporaryFolder folder;
   const std::string whole = Recording(folder / "x.oni");
   const size_t first_name = whole.find(kOniCameraProperty) + std::strlen(kOniCameraProperty);
@@ -104,7 +104,7 @@ TEST(UnfinishedOni, CutInItsHeadIsOneLine) {
   }
 }
 
-TEST(UnfinishedOni, WhoseRecorderWasKilledBeforeTheSealIsWhole) {
+TEST(UnfinishedOni, WithoutItsSealIsComplete) {
   const TemporaryFolder folder;
   std::string bytes = Recording(folder / "x.oni");
   const size_t value = bytes.find(kOniSealProperty) + std::strlen(kOniSealProperty) + 1 + 4;
@@ -114,7 +114,7 @@ TEST(UnfinishedOni, WhoseRecorderWasKilledBeforeTheSealIsWhole) {
 }
 
 // The following frames are still read: they may be all that the user has.
-TEST(UnfinishedOni, AFrameWithDamagedBytesIsNamedAndReadingGoesOn) {
+TEST(UnfinishedOni, ReportsADamagedFrameAndReadsOn) {
   const TemporaryFolder folder;
   std::string bytes = Recording(folder / "x.oni");
   bytes.pop_back();  // it was cut
@@ -128,7 +128,7 @@ TEST(UnfinishedOni, AFrameWithDamagedBytesIsNamedAndReadingGoesOn) {
 }
 
 // A damaged length must not look like truncation, nor other damage like a foreign file.
-TEST(SealedOni, WithAnyBitOfItFlippedIsRefused) {
+TEST(SealedOni, RefusesAnyFlippedBit) {
   const TemporaryFolder folder;
   const std::string whole = Recording(folder / "x.oni");
   for (size_t byte = 0; byte < whole.size(); ++byte) {
@@ -141,7 +141,7 @@ TEST(SealedOni, WithAnyBitOfItFlippedIsRefused) {
   }
 }
 
-TEST(SealedOni, WithoutItsSealsNameIsDamagedNotForeign) {
+TEST(SealedOni, DamagedSealNameIsReportedAsDamage) {
   const TemporaryFolder folder;
   std::string bytes = Recording(folder / "x.oni");
   bytes[bytes.find(kOniSealProperty)] = 'X';

@@ -7,7 +7,7 @@
 namespace ossa::depth {
 namespace {
 
-TEST(VirtualUri, IsAPathAndOptions) {
+TEST(VirtualUri, HasAPathAndOptions) {
   const auto options = ParseVirtualUri(
       "ossa:///data/a%3Fb%25c?loop=1&speed=2.5&fps=15&mirror=1&mirrored=1&unplug_after=30"
       "&replug_after_ms=200&unplugs=3&stall_after=99");
@@ -25,7 +25,7 @@ TEST(VirtualUri, IsAPathAndOptions) {
   EXPECT_FALSE(ParseVirtualUri("ossa://x?mirror=1").mirrored);
 }
 
-TEST(VirtualUri, AnythingElseIsNamed) {
+TEST(VirtualUri, RefusesUnknownOptionsByName) {
   for (const char* uri :
        {"", "ossa://", "ossa://?loop=1", "/path", "ossa://x?lop=1", "ossa://x?loop",
         "ossa://x?fps=0", "ossa://x?speed=-1", "ossa://x?speed=nan", "ossa://x?fps=3x",
