@@ -12,7 +12,7 @@ constexpr size_t kSpine = Index(Joint::kSpine);
 constexpr size_t kLeft = Index(Joint::kElbowLeft);
 constexpr size_t kRight = Index(Joint::kElbowRight);
 
-TEST(BoneLengthEstimator, KnowsNothingBeforeTheFirstMeasurement) {
+TEST(BoneLengthEstimator, IsEmptyBeforeTheFirstMeasurement) {
   BoneLengthEstimator bones;
   EXPECT_EQ(bones.length_m(kSpine), 0.0);
   EXPECT_EQ(bones.measurements(kSpine), 0);
@@ -34,7 +34,7 @@ TEST(BoneLengthEstimator, IsTheMeanOfAllFrames) {
   EXPECT_EQ(bones.lengths_m()[0], 0.0);  // the root ends no bone
 }
 
-TEST(BoneLengthEstimator, ForgetsWhatIsOlderThanItsMemory) {
+TEST(BoneLengthEstimator, ForgetsOldMeasurements) {
   BoneLengthEstimator bones({BoneStatistic::kMean, 10});
   for (int i = 0; i < 10; ++i) bones.Add(kSpine, 0.1);
   for (int i = 0; i < 100; ++i) bones.Add(kSpine, 0.4);
@@ -42,7 +42,7 @@ TEST(BoneLengthEstimator, ForgetsWhatIsOlderThanItsMemory) {
   EXPECT_NEAR(bones.length_m(kSpine), 0.4, 1e-4);
 }
 
-TEST(BoneLengthEstimator, HardlyMovesWhatIsKnown) {
+TEST(BoneLengthEstimator, HardlyMovesKnownLengths) {
   BoneLengthEstimator bones({BoneStatistic::kMean, 100});
   BoneLengths known_m;
   known_m.fill(0.3);
@@ -59,7 +59,7 @@ TEST(BoneLengthEstimator, MovesByItsShareOfTheDifference) {
   EXPECT_NEAR(bones.length_m(kSpine), 0.21, 1e-12);
 }
 
-TEST(BoneLengthEstimator, AMedianIsNotMovedFarByAThirdOfWrongMeasurements) {
+TEST(BoneLengthEstimator, MedianIsRobustAgainstAThirdOfOutliers) {
   BoneLengthEstimator running(BoneLengthOptions::ForJointDistances());
   BoneLengthEstimator exact(BoneLengthOptions::ForWholeRecording());
   BoneLengthEstimator mean(BoneLengthOptions::ForNetworkEstimates());
@@ -72,7 +72,7 @@ TEST(BoneLengthEstimator, AMedianIsNotMovedFarByAThirdOfWrongMeasurements) {
   EXPECT_GT(mean.length_m(kSpine), 0.5);
 }
 
-TEST(BoneLengthEstimator, SidesAreOneBoneWhereThatIsAskedFor) {
+TEST(BoneLengthEstimator, AveragesBothSidesOnRequest) {
   BoneLengthEstimator alike({BoneStatistic::kMean, 600, 0.1, true});
   BoneLengthEstimator apart({BoneStatistic::kMean, 600, 0.1, false});
   for (BoneLengthEstimator* bones : {&alike, &apart}) {

@@ -15,7 +15,7 @@ JointWeights Ones() {
   return w;
 }
 
-TEST(Normalise, UndoesPlacementAndTurn) {
+TEST(Normalise, InvertsPlacementAndRotation) {
   const Posture person = test::Gesture(0.4, 1.2, 0.5);
   for (const double yaw : {-3.0, -1.0, 0.0, 0.7, 3.1}) {
     const Posture seen = Placed(person, {{0.3, -0.2, 2.2}, yaw});
@@ -31,12 +31,12 @@ TEST(Normalise, APersonFacingTheCameraHasTheLeftHandAtNegativeX) {
   EXPECT_NEAR(std::abs(EstimatePlacement(seen, Ones(), 0.0).yaw_rad), 3.1, 1e-9);
 }
 
-TEST(Normalise, KeepsTheLastHeadingWhenNothingTells) {
+TEST(Normalise, KeepsTheLastHeadingWithoutEvidence) {
   Posture seen;  // all joints at one point
   EXPECT_DOUBLE_EQ(EstimatePlacement(seen, Ones(), 1.25).yaw_rad, 1.25);
 }
 
-TEST(Retarget, KeepsDirectionsAndGivesEveryBoneItsLength) {
+TEST(Retarget, KeepsDirectionsAndSetsBoneLengths) {
   const Posture person = test::Gesture(0.4, 1.2, 0.5, 0.3);
   for (const double scale : {0.9 / 1.66, 1.0, 2.2 / 1.66}) {
     const Posture other = Retargeted(person, ScaledBoneLengths(scale));
@@ -48,7 +48,7 @@ TEST(Retarget, KeepsDirectionsAndGivesEveryBoneItsLength) {
   }
 }
 
-TEST(Retarget, GivesBonesWithoutDirectionThatOfTheStance) {
+TEST(Retarget, UndefinedBonesGetTheRestDirection) {
   Posture collapsed;
   collapsed[Joint::kHead] = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   const Posture made = Retargeted(collapsed, StandardBoneLengths());
@@ -56,7 +56,7 @@ TEST(Retarget, GivesBonesWithoutDirectionThatOfTheStance) {
   EXPECT_GT(made[Joint::kHead].y(), made[Joint::kShoulderCenter].y());
 }
 
-TEST(BodyScale, IsThatOfThePersonDespiteAWrongBone) {
+TEST(BodyScale, IsRobustAgainstAWrongBone) {
   for (const double scale : {0.6, 1.0, 1.3}) {
     Posture person = Retargeted(test::Gesture(0.2, 0.3, 0.1), ScaledBoneLengths(scale));
     person[Joint::kHandLeft] += Eigen::Vector3d(0.8, 0.0, 0.0);

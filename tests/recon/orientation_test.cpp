@@ -47,7 +47,7 @@ TEST(Orientation, AtRestIsTheRestPose) {
   }
 }
 
-TEST(Orientation, RestAxesAreThoseOfTheConvention) {
+TEST(Orientation, RestAxesFollowTheConvention) {
   for (size_t i = 0; i < kJointCount; ++i) {
     const bool foot = i == 15 || i == 19;
     const Vector3d z = RestOrientations()[i] * Vector3d::UnitZ();
@@ -67,7 +67,7 @@ TEST(Orientation, YRunsAlongTheBone) {
   }
 }
 
-TEST(Orientation, TurnsWithThePerson) {
+TEST(Orientation, RotatesWithThePerson) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Posture posture = RandomPosture(seed);
     const Quaterniond turn(AngleAxisd(0.1 * seed, Vector3d(1, 2, -1).normalized()));
@@ -80,7 +80,7 @@ TEST(Orientation, TurnsWithThePerson) {
   }
 }
 
-TEST(Orientation, APositiveTurnAboutXFlexesAnElbowAndANegativeOneAKnee) {
+TEST(Orientation, PositiveRotationAboutXFlexesAnElbowAndANegativeOneAKnee) {
   struct Case {
     Joint upper, lower, end;
     Vector3d flexed;  // where the lower bone points when bent by 90 degrees in the rest pose
@@ -122,7 +122,7 @@ TEST(Orientation, ToAndFromSdk2AreInverse) {
   }
 }
 
-TEST(Orientation, IsAUnitQuaternionWhateverComes) {
+TEST(Orientation, IsAUnitQuaternionForAnyInput) {
   Posture posture = RandomPosture(3);
   posture[Joint::kElbowLeft].setConstant(std::numeric_limits<double>::quiet_NaN());
   posture[Joint::kKneeRight] = posture[Joint::kHipRight];

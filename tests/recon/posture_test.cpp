@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 const Vector3d kNowhere = Vector3d::Constant(std::nan(""));
 
-TEST(FilledPosture, HasWhatIsMissingAgainstItsParents) {
+TEST(FilledPosture, PlacesMissingJointsRelativeToTheirParents) {
   const Posture whole = StandardStance();
   const Vector3d move_m(0.5, -0.1, 2.0);
   Posture seen = whole;
@@ -27,13 +27,13 @@ TEST(FilledPosture, HasWhatIsMissingAgainstItsParents) {
   }
 }
 
-TEST(FilledPosture, OfWhichNothingIsKnownIsTheOther) {
+TEST(FilledPosture, EqualsTheReferenceIfNothingIsKnown) {
   Posture nothing;
   nothing.position_m.fill(kNowhere);
   EXPECT_LT(MeanDistance_m(FilledFrom(StandardStance(), nothing), StandardStance()), 1e-12);
 }
 
-TEST(MeanDistance, IsOfTheJointsThatAreKnown) {
+TEST(MeanDistance, AveragesOverKnownJoints) {
   const Posture whole = StandardStance();
   Posture target;
   target.position_m.fill(kNowhere);
@@ -43,7 +43,7 @@ TEST(MeanDistance, IsOfTheJointsThatAreKnown) {
   EXPECT_NEAR(MeanDistance_m(whole, target), 0.15, 1e-12);
 }
 
-TEST(SidesExchanged, TakesStatesAlongAndTwiceIsNothing) {
+TEST(SidesExchanged, ExchangesStatesTooAndIsAnInvolution) {
   TrackedPosture seen;
   seen.posture = StandardStance();
   seen.state[Index(Joint::kHandLeft)] = TrackingState::kTracked;
@@ -55,13 +55,13 @@ TEST(SidesExchanged, TakesStatesAlongAndTwiceIsNothing) {
   EXPECT_EQ(SidesExchanged(exchanged).posture.position_m, seen.posture.position_m);
 }
 
-TEST(AngleBetween, IsThatOfTheDirections) {
+TEST(AngleBetween, DependsOnTheDirectionsOnly) {
   EXPECT_NEAR(AngleBetween_rad(2.0 * Vector3d::UnitX(), Vector3d(3, 3, 0)), std::numbers::pi / 4,
               1e-12);
   EXPECT_NEAR(AngleBetween_rad(Vector3d::UnitX(), -Vector3d::UnitX()), std::numbers::pi, 1e-12);
 }
 
-TEST(RotationVector, IsTheShortWayOfEitherSign) {
+TEST(RotationVector, IsTheShorterRotationForEitherSign) {
   const Vector3d axis = Vector3d(1, 2, -2) / 3.0;
   for (const double angle_rad : {0.0, 1e-14, 0.4, 3.0}) {
     Eigen::Quaterniond q(Eigen::AngleAxisd(angle_rad, axis));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kHandLeft = 7;
 
-TEST(Reliability, OfASteadyCompletePostureIsOne) {
+TEST(Reliability, SteadyCompletePostureGivesOne) {
   ReliabilityEstimator estimator;
   const Posture seen = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
   Reliability r;
@@ -21,7 +21,7 @@ TEST(Reliability, OfASteadyCompletePostureIsOne) {
   for (const double rate : r.rate) EXPECT_NEAR(rate, 1.0, 1e-9);
 }
 
-TEST(Reliability, OfAJointThatVibratesFalls) {  // eqs. 1-4: 180 degree turns exceed the roof
+TEST(Reliability, VibratingJointFalls) {  // eqs. 1-4: 180 degree turns exceed the roof
   ReliabilityEstimator estimator;
   Reliability r;
   for (int f = 0; f < 10; ++f) {
@@ -36,7 +36,7 @@ TEST(Reliability, OfAJointThatVibratesFalls) {  // eqs. 1-4: 180 degree turns ex
 
 // Eqs. 1-4 in numbers: steps of 5 cm that turn by 120, 100 and 110 degrees are a mean turn of 110,
 // twenty of the 45 degrees from the floor to the roof.
-TEST(Reliability, OfTurnsOf110DegreesIsFiveNinths) {
+TEST(Reliability, RotationsOf110DegreesGiveFiveNinths) {
   ReliabilityEstimator estimator;
   Posture seen = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
   Reliability r = estimator.Step(test::AllTracked(seen), nullptr);
@@ -113,7 +113,7 @@ TEST(Reliability, LearnsWhereASensorPutsHands) {
   EXPECT_GT(r.kinematics[11], 0.95);
 }
 
-TEST(Reliability, OfInferredAndMissingJointsIsZero) {  // eq. 7
+TEST(Reliability, InferredAndMissingJointsGiveZero) {  // eq. 7
   ReliabilityEstimator estimator;
   TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1)));
   seen.state[3] = TrackingState::kInferred;
@@ -160,7 +160,7 @@ ReliabilityEstimator WithSpeed() {
   return ReliabilityEstimator(options);
 }
 
-TEST(SpeedReliability, OfAJointThatIsGoneForOneFrameFallsThereAndNotWhereItComesBack) {
+TEST(SpeedReliability, FallsForAOneFrameJumpButNotForTheReturn) {
   ReliabilityEstimator estimator = WithSpeed();
   const Posture still = test::InFrontOfCamera(test::Gesture(0.9, 0.1, 0.1));
   const Posture gone = test::InFrontOfCamera(test::Gesture(2.4, 0.1, 0.1));  // the left arm
@@ -174,7 +174,7 @@ TEST(SpeedReliability, OfAJointThatIsGoneForOneFrameFallsThereAndNotWhereItComes
   for (const double speed : back.speed) EXPECT_EQ(speed, 1.0);
 }
 
-TEST(SpeedReliability, OfWhatStaysComesBackOnceALimbCouldHaveCome) {
+TEST(SpeedReliability, RecoversOnceALimbCouldHaveMovedThere) {
   ReliabilityEstimator estimator = WithSpeed();
   const Posture still = test::InFrontOfCamera(test::Gesture(0.9, 0.1, 0.1));
   const Posture other = test::InFrontOfCamera(test::Gesture(2.4, 0.1, 0.1));
@@ -188,7 +188,7 @@ TEST(SpeedReliability, OfWhatStaysComesBackOnceALimbCouldHaveCome) {
   EXPECT_GE(estimator.Step(test::AllTracked(other), nullptr).speed[5], 0.5);
 }
 
-TEST(SpeedReliability, LeavesAFastMoveAJumpOfTheWholeBodyAndALongStepAlone) {
+TEST(SpeedReliability, IgnoresFastMotionWholeBodyJumpsAndLongSteps) {
   const auto lowest = [](double rad_per_frame, double dt_s, double body_m) {
     ReliabilityEstimator estimator = WithSpeed();
     double least = 1.0;
@@ -215,7 +215,7 @@ TEST(SpeedReliability, IsOffForThePapersMethods) {
   for (const double s : estimator.Step(test::AllTracked(far), nullptr).speed) EXPECT_EQ(s, 1.0);
 }
 
-TEST(SurfaceReliability, TellsHiddenAndFloatingJointsFromSeenOnes) {
+TEST(SurfaceReliability, DistinguishesHiddenFloatingAndVisibleJoints) {
   depth::DepthFrame frame;
   frame.camera = depth::KinectV1Camera(160, 120);
   frame.depth_mm.assign(160 * 120, 2400);

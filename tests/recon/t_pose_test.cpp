@@ -14,7 +14,7 @@ BoneLengths SomeLengths() {
   return lengths_m;
 }
 
-TEST(TPose, HasItsBonesLengths) {
+TEST(TPose, HasTheGivenBoneLengths) {
   const BoneLengths wanted_m = SomeLengths();
   const BoneLengths made_m = MeasureBoneLengths(BuildTPose(wanted_m));
   for (size_t j = 1; j < kJointCount; ++j) EXPECT_NEAR(made_m[j], wanted_m[j], 1e-12) << j;
@@ -30,7 +30,7 @@ TEST(TPose, FacesForwardWithItsLeftArmToTheLeft) {
   EXPECT_GT(pose[Joint::kFootLeft].z(), pose[Joint::kAnkleLeft].z());
 }
 
-TEST(TPose, IsTheSameOnBothSides) {
+TEST(TPose, IsSymmetric) {
   for (size_t j = 4; j < 8; ++j) {
     EXPECT_EQ(TPoseDirection(j), -TPoseDirection(j + 4)) << "an arm's bone " << j;
   }

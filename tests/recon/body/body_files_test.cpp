@@ -58,17 +58,17 @@ TEST_F(SmallBody, CountsItsVerticesFrom1) {
   ExpectComplaint("base.obj: line 5: expected a vertex number from 1 up, found 0");
 }
 
-TEST_F(SmallBody, OfANumberThatIsNoneIsRefused) {
+TEST_F(SmallBody, NanIsRefused) {
   Write("base.obj", "v 0 nan 0\nv 1 0 0\nv 0 1 0\ng body\nf 1 2 3\n");
   ExpectComplaint("base.obj: line 1: expected a finite number");
 }
 
-TEST_F(SmallBody, OfADeltaThatItsModelCannotHoldIsRefused) {
+TEST_F(SmallBody, TooLargeDeltaIsRefused) {
   Write("targets/female.target", "0 0 0 0\n1 0 99 0\n");
   ExpectComplaint("female.target: line 2: expected deltas of at most 32 decimetres");
 }
 
-TEST_F(SmallBody, OfAWeightBelow0IsRefused) {
+TEST_F(SmallBody, NegativeWeightIsRefused) {
   std::ifstream file(folder_ / "weights.cmu_mb.json");
   auto weights = nlohmann::json::parse(file);
   weights["weights"]["Spine"] = {{1, -0.5}};
@@ -76,13 +76,13 @@ TEST_F(SmallBody, OfAWeightBelow0IsRefused) {
   ExpectComplaint("weights.cmu_mb.json: bone Spine: expected [[vertex, weight], ...], weights");
 }
 
-TEST_F(SmallBody, NamesItsFileWhereAGroupIsMissing) {
+TEST_F(SmallBody, MissingGroupIsRefusedWithTheFile) {
   test::ExpectRefused([&] { (void)ReadBodyFiles(folder_.path()).Vertices("helper-skirt"); },
                       (folder_ / "base.obj: expected a group helper-skirt").string());
 }
 
 // The model is cached beside its files, which may be edited later.
-TEST(BodyModelCache, IsMadeAnewWhereAFileIsNewer) {
+TEST(BodyModelCache, IsRebuiltIfAFileIsNewer) {
   if (!BodyIsFetched(BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   fs::copy(BodyFolder(), folder.path(), fs::copy_options::recursive);

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kExact = 1e-6;  // angles near 0 amplify a quaternion's rounding
 
-TEST(RigOrientations, AtRestAreWhatTheJointsTell) {
+TEST(RigOrientations, AtRestEqualThoseOfTheJoints) {
   const auto rig = ComputeOrientations(RigPose{});
   const auto joints = ComputeOrientations(StandardPosture(RigPose{}));
   for (size_t i = 0; i < kJointCount; ++i) {
@@ -24,7 +24,7 @@ TEST(RigOrientations, AtRestAreWhatTheJointsTell) {
   }
 }
 
-TEST(RigOrientations, TurnWithTheWholeBody) {
+TEST(RigOrientations, RotateWithTheWholeBody) {
   const Quaterniond turn(AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()));
   RigPose pose;
   pose.world_from_rest.fill(turn);
@@ -36,7 +36,7 @@ TEST(RigOrientations, TurnWithTheWholeBody) {
 
 // Forearm and hand rotated about the forearm: no joint up to the wrist moves, but the forearm's
 // orientation shows the twist about its own y axis.
-TEST(RigOrientations, HaveTheTwistThatJointsDoNotTell) {
+TEST(RigOrientations, HaveTheTwistThatJointsLack) {
   constexpr double kTwist_rad = 0.9;
   const Posture rest = StandardPosture(RigPose{});
   const Vector3d along = (rest[Joint::kWristLeft] - rest[Joint::kElbowLeft]).normalized();
@@ -54,7 +54,7 @@ TEST(RigOrientations, HaveTheTwistThatJointsDoNotTell) {
 
 // An arm raised sideways from hanging to a T-pose: z axes point forwards, as in the SDK's rest
 // pose.
-TEST(RigOrientations, OfARaisedArmAreThoseOfTheTPose) {
+TEST(RigOrientations, RaisedArmEqualsTheTPose) {
   const Posture rest = StandardPosture(RigPose{});
   const Vector3d upper = (rest[Joint::kElbowLeft] - rest[Joint::kShoulderLeft]).normalized();
   const Quaterniond raise = Quaterniond::FromTwoVectors(upper, Vector3d::UnitX());
@@ -85,13 +85,13 @@ double MeanOff_deg(const PostureDatabase& database) {
 
 // The shipped file has version 1, whose orientations are relative to hanging arms: unconverted they
 // would be off by 90 degrees and more.
-TEST(PostureDatabase, OfVersionOneIsReadInTheConventionOfTheJoints) {
+TEST(PostureDatabase, VersionOneIsConvertedToTheJointsConvention) {
   const auto database =
       PostureDatabase::Load(test::SourceFolder() / "tools/tracker/shipped/authored.ossadb");
   EXPECT_LT(MeanOff_deg(database), 25.0);
 }
 
-TEST(PostureDatabase, OfClipsWithoutOrientationsHasThoseOfTheJoints) {
+TEST(PostureDatabase, ClipsWithoutOrientationsGetThoseOfTheJoints) {
   PostureClip clip;
   clip.name = "still";
   clip.postures.push_back(StandardPosture(RigPose{}));

@@ -56,7 +56,7 @@ TEST(PostureDatabase, KeepsAPostureWithinTheThresholdOfEveryGivenOne) {
   }
 }
 
-TEST(PostureDatabase, EdgesJoinWhatIsNearBothWays) {
+TEST(PostureDatabase, EdgesAreSymmetricAndJoinNearNodes) {
   const auto db = PostureDatabase::Build(test::GestureClips(), {.most_edges = 10000});
   for (int i = 0; i < db.size(); ++i) {
     int near = 0;
@@ -73,7 +73,7 @@ TEST(PostureDatabase, EdgesJoinWhatIsNearBothWays) {
 
 // Plantard 2016 algorithm 1 and eq. 2 written out. One arm is raised and lowered, then the other:
 // lowering adds no postures, but is no gap between those kept before and after it.
-TEST(PostureDatabase, ConnectsWithinTheStepsThatAClipMakes) {
+TEST(PostureDatabase, EdgesAreNoLongerThanStepsOfClips) {
   PostureClip clip;
   for (double lift = 0.0; lift < 1.5; lift += 0.04)
     clip.postures.push_back(test::Gesture(lift, 0.0, 0.1));
@@ -101,7 +101,7 @@ TEST(PostureDatabase, ConnectsWithinTheStepsThatAClipMakes) {
   EXPECT_LT(db.edge_threshold_m(), 0.3);  // the paper's is 0.25 m
 }
 
-TEST(PostureDatabase, IsFilteredOnceMoreAndKeepsItsNearestEdges) {
+TEST(PostureDatabase, CanBeFilteredAgainAndKeepsItsNearestEdges) {
   const auto db = PostureDatabase::Build(test::GestureClips(), {});
   const auto sparse = db.Filtered(0.4);
   EXPECT_LT(sparse.size(), db.size());
@@ -117,7 +117,7 @@ TEST(PostureDatabase, IsFilteredOnceMoreAndKeepsItsNearestEdges) {
   }
 }
 
-TEST(PostureDatabase, HasWhatItsOwnFilterWouldDrop) {
+TEST(PostureDatabase, KeepsAddedPosturesThatItsFilterWouldDrop) {
   for (const DatabaseFilter filter : {DatabaseFilter::kMaxJoint, DatabaseFilter::kSumSquared}) {
     DatabaseOptions options;
     options.filter = filter;
@@ -132,7 +132,7 @@ TEST(PostureDatabase, HasWhatItsOwnFilterWouldDrop) {
   }
 }
 
-TEST(PostureDatabase, TakesPosturesInWithoutMovingTheOthers) {
+TEST(PostureDatabase, AddingPosturesKeepsTheOthersIndices) {
   auto db = PostureDatabase::Build(test::GestureClips(), {});
   const auto before = db;
   PostureVector bowed = db.postures().col(0);
@@ -152,7 +152,7 @@ TEST(PostureDatabase, TakesPosturesInWithoutMovingTheOthers) {
   }
 }
 
-TEST(PostureDatabase, ComesBackFromItsFileWithTheSameBytes) {
+TEST(PostureDatabase, FileIsReadAndWrittenWithTheSameBytes) {
   const ossa::test::TemporaryFolder folder;
   const auto db = PostureDatabase::Build(test::GestureClips(), {});
   db.Save(folder / "a.ossadb");
@@ -187,7 +187,7 @@ TEST(PostureDatabase, RefusesATruncatedAndADamagedFileByName) {
   EXPECT_THROW(PostureDatabase::Load(folder / "bad.ossadb"), InputError);
 }
 
-TEST(NearestPostures, AreThoseOfBruteForceWithAndWithoutHints) {
+TEST(NearestPostures, EqualBruteForceWithAndWithoutHints) {
   const auto db = PostureDatabase::Build(test::GestureClips(), {});
   JointWeights weights{};
   for (size_t i = 0; i < kJointCount; ++i) weights[i] = static_cast<double>(i % 3) / 2.0;

@@ -76,7 +76,7 @@ std::vector<Sample> Samples() {
           {"x.zip", Zip({{"a.jsonl", Jsonl(3)}, {"b.jsonl", Jsonl(5)}}), {{"a", 3}, {"b", 5}}}};
 }
 
-TEST(Archives, CutAnywhereAreRefused) {
+TEST(Archives, EveryTruncationIsRefused) {
   const TemporaryFolder folder;
   for (const Sample& sample : Samples()) {
     Put(folder / sample.name, sample.bytes);
@@ -102,7 +102,7 @@ TEST(Archives, WithAnyBitFlippedAreRefusedOrTheSame) {
   }
 }
 
-TEST(Archives, OfGzipMembersOneBehindTheOtherAreRead) {
+TEST(Archives, ConcatenatedGzipMembersAreRead) {
   const TemporaryFolder folder;
   const std::string all = Jsonl(4);
   const size_t half = all.find('\n', all.size() / 2) + 1;
@@ -110,7 +110,7 @@ TEST(Archives, OfGzipMembersOneBehindTheOtherAreRead) {
   EXPECT_EQ(ReadSkeletons(folder / "x.gz").frames.size(), 4U);
 }
 
-TEST(Archives, BytesBehindAGzipsEndAreRefusedZerosAreNot) {
+TEST(Archives, TrailingBytesOfAGzipAreRefusedUnlessZero) {
   const TemporaryFolder folder;
   Put(folder / "x.gz", Gzip(Jsonl(4)) + std::string(700, '\0'));
   EXPECT_EQ(ReadSkeletons(folder / "x.gz").frames.size(), 4U);
@@ -118,7 +118,7 @@ TEST(Archives, BytesBehindAGzipsEndAreRefusedZerosAreNot) {
   ExpectRefused([&] { ReadSkeletons(folder / "x.gz"); }, "expected a whole archive");
 }
 
-TEST(Archives, ATarThatWasCutBetweenTwoMembersIsRefused) {
+TEST(Archives, TarTruncatedBetweenMembersIsRefused) {
   const TemporaryFolder folder;
   const std::string tar = Tar();
   const size_t second = tar.find("b.jsonl");
@@ -127,14 +127,14 @@ TEST(Archives, ATarThatWasCutBetweenTwoMembersIsRefused) {
 }
 
 // 'tar cf x.tar .' begins names with "./".
-TEST(Archives, MembersAreCalledAsOnceUnpacked) {
+TEST(Archives, MembersHaveTheirUnpackedNames) {
   const TemporaryFolder folder;
   WriteTar(folder / "x.tar", {{"./a.jsonl", Jsonl(3)}, {"./sub//b.jsonl", Jsonl(5)}});
   const std::map<std::string, size_t> unpacked = {{"a", 3}, {"sub/b", 5}};
   EXPECT_EQ(FramesIn(folder / "x.tar"), unpacked);
 }
 
-TEST(Archives, OfTooManyMembersAreRefused) {
+TEST(Archives, TooManyMembersAreRefused) {
   const TemporaryFolder folder;
   const std::string member = TarHeader("a.jsonl", 0);
   std::ofstream file(folder / "x.tar", std::ios::binary);
@@ -144,7 +144,7 @@ TEST(Archives, OfTooManyMembersAreRefused) {
 }
 
 // Its table has 16-bit counts, which overflow.
-TEST(Archives, AZipOfTooManyMembersIsRefused) {
+TEST(Archives, ZipWithTooManyMembersIsRefused) {
   const TemporaryFolder folder;
   std::vector<std::pair<std::string, std::string>> members;
   for (int m = 0; m <= 100000; ++m) members.emplace_back(std::to_string(m), "");

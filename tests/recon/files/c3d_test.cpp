@@ -83,7 +83,7 @@ SkeletonSequence ReadText(const std::string& text) {
   return ReadSkeletonStream(stream, "file");
 }
 
-TEST(C3dUp, IsZOrWhatItsScreenSays) {
+TEST(C3dUp, IsZUnlessTheScreenParameterDiffers) {
   for (const auto& [up, y_screen] :
        {std::pair{2U, ""}, {2U, "+Z"}, {1U, "+Y"}, {2U, "+Y"}}) {  // the last is wrong
     const auto read = ReadText(StandingC3d(up, y_screen));
@@ -94,7 +94,7 @@ TEST(C3dUp, IsZOrWhatItsScreenSays) {
   }
 }
 
-TEST(C3dUp, IsDoubtedWhereNobodyStandsOnAFloor) {
+TEST(C3dUp, WarnsIfNobodyStandsUpright) {
   const auto read = ReadText(StandingC3d(1, ""));
   EXPECT_NEAR(At(read, 0, Joint::kHead).z(), -1.6, 1e-6);
   ASSERT_EQ(read.warnings.size(), 1u);
@@ -114,7 +114,7 @@ TEST(C3dLabels, MayBeFilledWithZeros) {
   EXPECT_TRUE(read.frames[0].bodies[0].joints[Index(Joint::kHead)].has_value());
 }
 
-TEST(C3dRate, IsTheParametersWhereTheHeaderHasNone) {
+TEST(C3dRate, ComesFromTheParametersIfTheHeaderHasNone) {
   std::string bytes = C3dBytes();
   Put<float>(bytes, 20, 0.0f);
   EXPECT_NE(ComplaintAbout(bytes).find("expected a frame rate, there or in POINT:RATE"),
@@ -124,24 +124,24 @@ TEST(C3dRate, IsTheParametersWhereTheHeaderHasNone) {
   EXPECT_NEAR(ReadText(bytes).frames.at(1).time_s, 0.02, 1e-9);
 }
 
-TEST(LongC3d, HasAsManyFramesAsItsTrialSays) {
+TEST(LongC3d, FrameCountComesFromTheTrialParameters) {
   EXPECT_EQ(FramesOf(LongC3d(Trial(1, kFrames))), kFrames);
   EXPECT_EQ(FramesOf(LongC3d(Trial(80001, 80000 + 500), 500)), 500u) << "the end of a longer one";
 }
 
-TEST(LongC3d, HasAsManyFramesAsItsPointsSay) {
+TEST(LongC3d, FrameCountComesFromThePointParameters) {
   const std::string count = Bytes(static_cast<float>(kFrames));
   EXPECT_EQ(FramesOf(LongC3d(NumberRecord(1, "FRAMES", 4, count))), kFrames);
   EXPECT_EQ(FramesOf(LongC3d(NumberRecord(1, "LONG_FRAMES", 4, count))), kFrames);
 }
 
-TEST(LongC3d, IsAsTheHeaderSaysWhereThatIsEnough) {
+TEST(LongC3d, FrameCountComesFromTheHeaderIfNotSaturated) {
   EXPECT_EQ(FramesOf(LongC3d("")), 65535u);
   EXPECT_EQ(FramesOf(LongC3d(Trial(1, 300))), 65535u);
   EXPECT_EQ(FramesOf(LongC3d(NumberRecord(1, "FRAMES", 2, Bytes<uint16_t>(65535)))), 65535u);
 }
 
-TEST(LongC3d, IsRefusedWhereFramesAreMissing) {
+TEST(LongC3d, MissingFramesAreRefused) {
   const std::string complaint = ComplaintAbout(LongC3d(Trial(1, kFrames), kFrames - 1));
   EXPECT_EQ(complaint, "file: byte 2240992: expected all frames up to byte 2241024");
   const std::string endless = ComplaintAbout(LongC3d(Trial(1, 0xFFFFFFFF), 10));

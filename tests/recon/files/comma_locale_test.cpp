@@ -55,14 +55,14 @@ Files WrittenNow() {
   return files;
 }
 
-TEST(CommaLocale, IsOneForTheLanguagesOwnFunctions) {
+TEST(CommaLocale, AffectsTheStandardFunctions) {
   const CommaLocale locale;
   if (!locale.is_there()) GTEST_SKIP() << "no German locale can be made here";
   EXPECT_EQ(std::stod("1,5"), 1.5);
   EXPECT_EQ((std::ostringstream() << 1.5).str(), "1,5");
 }
 
-TEST(CommaLocale, FilesAreWrittenAsWithout) {
+TEST(CommaLocale, DoesNotAffectWriting) {
   const Files expected = WrittenNow();
   const CommaLocale locale;
   if (!locale.is_there()) GTEST_SKIP() << "no German locale can be made here";
@@ -74,7 +74,7 @@ TEST(CommaLocale, FilesAreWrittenAsWithout) {
   }
 }
 
-TEST(CommaLocale, FilesAreReadAsWithout) {
+TEST(CommaLocale, DoesNotAffectReading) {
   const test::TemporaryFolder folder;
   for (const auto& [name, bytes] : WrittenNow()) {
     std::ofstream(folder / name, std::ios::binary) << bytes;

@@ -95,7 +95,7 @@ TEST(JointColumns, AreFramesUnderAHeaderOfNamesAndAxes) {
   EXPECT_NEAR(frames.frames[1].time_s, 4.0 / 30.0, 1e-12);
 }
 
-TEST(JointLines, BlankNanAndOriginAreNotSeen) {
+TEST(JointLines, BlankNanAndOriginAreMissingJoints) {
   for (const char* gap : {",,", "nan,nan,nan", "0,0,0"}) {
     const std::string text = ReplacedAll(ReplacedAll(kJointLines, " ", ","), "0.101,0.2,2", gap);
     const auto read = ReadText(ReplacedAll(text, ",0.9", ""));
@@ -104,7 +104,7 @@ TEST(JointLines, BlankNanAndOriginAreNotSeen) {
   }
 }
 
-TEST(JointColumns, BlankNanAndOriginAreNotSeen) {
+TEST(JointColumns, BlankNanAndOriginAreMissingJoints) {
   for (const char* gap : {",,", "nan,nan,nan", "0,0,0"}) {
     const auto read = ReadText(ReplacedAll(kJointColumns, "0.101,0.2,2", gap));
     EXPECT_FALSE(read.frames.at(1).bodies.at(0).joints[Index(Joint::kHipCenter)]) << gap;
@@ -112,7 +112,7 @@ TEST(JointColumns, BlankNanAndOriginAreNotSeen) {
   }
 }
 
-TEST(JointTables, InMillimetresOrCentimetresAreKnownByTheLimbsAndTellSo) {
+TEST(JointTables, MillimetresAndCentimetresAreRecognisedByTheLimbsWithANote) {
   const auto thousandfold = [](double units) {
     std::ostringstream text;
     text << "frame,HipLeft_x,HipLeft_y,HipLeft_z,KneeLeft_x,KneeLeft_y,KneeLeft_z,Head_x,Head_y,"
@@ -133,7 +133,7 @@ TEST(JointTables, InMillimetresOrCentimetresAreKnownByTheLimbsAndTellSo) {
       Tells(ReadText(ReplacedAll(kJointColumns, "KneeLeft", "FootLeft")), "taken as metres"));
 }
 
-TEST(JointTables, OfSeveralPeopleSayWhoseJointsTheyAre) {
+TEST(JointTables, SeveralPeopleHaveTheirOwnJoints) {
   const auto read = ReadText(
       "frame,body,joint,x,y,z\n0,7,HipLeft,0.1,0.1,2\n0,7,KneeLeft,0.1,-0.3,2\n"
       "0,9,HipLeft,1,0.1,2\n0,9,KneeLeft,1,-0.3,2\n1,9,HipLeft,1,0.1,2\n1,9,KneeLeft,1,-0.3,2\n");
@@ -144,7 +144,7 @@ TEST(JointTables, OfSeveralPeopleSayWhoseJointsTheyAre) {
   EXPECT_EQ(read.frames[0].bodies[1].joints[Index(Joint::kHipLeft)]->position_m.x(), 1.0);
 }
 
-TEST(JointTables, NeckIsTheShoulderCenterOnlyWhereNothingElseIs) {
+TEST(JointTables, NeckIsTheShoulderCenterOnlyIfThereIsNoOther) {
   const std::string with = kJointLines + "1 Neck 0.1 0.6 2\n1 SpineShoulder 0.1 0.5 2\n";
   EXPECT_NEAR(At(ReadText(with), 1, Joint::kShoulderCenter).y(), 0.5, 1e-12);
   EXPECT_FALSE(Tells(ReadText(with), "not read"));
@@ -152,7 +152,7 @@ TEST(JointTables, NeckIsTheShoulderCenterOnlyWhereNothingElseIs) {
               1e-12);
 }
 
-TEST(JointTables, TakeOtherNamesByAMapping) {
+TEST(JointTables, MappingAddsOtherNames) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "names.txt") << "KneeLeft = Knie\nHipLeft = Huefte\n";
   SkeletonReadOptions options;
@@ -174,7 +174,7 @@ void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.name; }
 
 class BadTables : public testing::TestWithParam<Bad> {};
 
-TEST_P(BadTables, AreRefusedByTheLine) {
+TEST_P(BadTables, AreRefusedWithTheLineNumber) {
   const std::string line = ComplaintAbout(GetParam().text);
   EXPECT_NE(line.find("file: " + GetParam().told), std::string::npos) << line;
 }

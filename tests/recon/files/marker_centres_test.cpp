@@ -40,7 +40,7 @@ Vector3d ToHip(const BodyRecord& body, Joint joint, const Vector3d& asis) {
 
 // Bell et al. 1990, as shares of the distance between the ASIS: 30 % down, 19 % back, 14 % inwards.
 // Down must not depend on rounding.
-TEST(MarkerCentres, HipsLieBelowThePelvisWhereverThePersonFaces) {
+TEST(MarkerCentres, HipsAreBelowThePelvisForAnyHeading) {
   constexpr double kWidth_m = 0.24;
   const Vector3d up = kCamFromRoom * Vector3d::UnitY();
   for (int degrees = 0; degrees < 360; degrees += 10) {

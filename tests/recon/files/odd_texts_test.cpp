@@ -44,7 +44,7 @@ std::string ForDec(std::string bytes) {
   return bytes;
 }
 
-TEST(C3d, OfEveryProcessorIsTheSame) {
+TEST(C3d, ReadsAllProcessorFormatsEqually) {
   const auto intel = ReadText(C3dBytes());
   for (const std::string& bytes : {ForMips(C3dBytes()), ForDec(C3dBytes())}) {
     const auto read = ReadText(bytes);
@@ -59,7 +59,7 @@ TEST(C3d, OfEveryProcessorIsTheSame) {
   }
 }
 
-TEST(C3d, NanIsNotSeen) {
+TEST(C3d, NanIsAMissingPoint) {
   std::string bytes = C3dBytes();
   Put<float>(bytes, 1024 + 16, std::numeric_limits<float>::quiet_NaN());
   EXPECT_FALSE(ReadText(bytes).frames[0].bodies[0].joints[3].has_value());
@@ -86,7 +86,7 @@ std::string InQuotes(const std::string& text, char separator) {
   return quoted;
 }
 
-TEST(OwnCsv, AsSpreadsheetsSaveItIsTheSame) {
+TEST(OwnCsv, SpreadsheetVariantsAreEqual) {
   const std::string own = OwnCsv();
   std::string european = ReplacedAll(own, ",", ";");
   european = ReplacedAll(european, ".", ",");
@@ -106,14 +106,14 @@ TEST(OwnCsv, AsSpreadsheetsSaveItIsTheSame) {
   }
 }
 
-TEST(OwnCsv, RowsOfSeparatorsAloneArePassedOver) {
+TEST(OwnCsv, RowsOfSeparatorsOnlyAreSkipped) {
   const std::string own = OwnCsv();
   for (const char* rows : {",,,,\n", ",\n,\n"}) {
     EXPECT_EQ(ReadText(own + rows).frames.size(), ReadText(own).frames.size());
   }
 }
 
-TEST(OwnCsv, CutInsideARowIsRefused) {
+TEST(OwnCsv, TruncatedRowIsRefused) {
   const std::string own = OwnCsv();
   EXPECT_NE(ComplaintAbout(own.substr(0, own.rfind(','))), "");
 }
@@ -126,7 +126,7 @@ TEST(Ntu, WithNanKeepsTheOtherJoints) {
   EXPECT_GE(joints, 18u);
 }
 
-TEST(Ntu, WithWrongCountsKeepsWhatIsThereWithAWarning) {
+TEST(Ntu, WrongCountsKeepTheExistingDataWithAWarning) {
   const std::string good = NtuText();
   for (const std::string& text :
        {ReplacedAll(good, "2\n0\n1\n", "7\n0\n1\n"), ReplacedAll(good, "2\n0\n1\n", "1\n0\n1\n"),
@@ -140,7 +140,7 @@ TEST(Ntu, WithWrongCountsKeepsWhatIsThereWithAWarning) {
   }
 }
 
-TEST(OddText, InUtf16IsRefusedByThatName) {
+TEST(OddText, Utf16IsRefusedByName) {
   EXPECT_NE(ComplaintAbout(std::string("\xFF\xFE"
                                        "f\0r\0",
                                        6))
@@ -158,7 +158,7 @@ void PrintTo(const OddBvh& odd, std::ostream* out) { *out << odd.name; }
 
 class OddBvhs : public testing::TestWithParam<OddBvh> {};
 
-TEST_P(OddBvhs, AreReadAsThePlainOne) {
+TEST_P(OddBvhs, AreReadLikeThePlainFile) {
   const auto plain = ReadText(test::FigureBvh());
   const auto read = ReadText(GetParam().text);
   ASSERT_EQ(read.frames.size(), plain.frames.size());
@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
         OddBvh{"NoLastLineEnd", test::FigureBvh().substr(0, test::FigureBvh().size() - 1), ""}),
     [](const auto& info) { return std::string(info.param.name); });
 
-TEST(OddBvh, CutInsideItsLastRowIsRefused) {
+TEST(OddBvh, TruncatedLastRowIsRefused) {
   const std::string whole = test::FigureBvh();
   const size_t row = whole.rfind('\n', whole.size() - 2);
   for (size_t length = row + 3; length + 1 < whole.size(); length += 7) {
@@ -213,7 +213,7 @@ void PrintTo(const Foreign& foreign, std::ostream* out) { *out << foreign.name; 
 
 class ForeignRecordings : public testing::TestWithParam<Foreign> {};
 
-TEST_P(ForeignRecordings, AreRefusedByNameAndWithAWay) {
+TEST_P(ForeignRecordings, AreRefusedByNameWithAWayToConvertThem) {
   try {
     ReadText(GetParam().text);
     ADD_FAILURE() << "read";

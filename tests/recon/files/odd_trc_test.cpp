@@ -41,7 +41,7 @@ void PrintTo(const OddTrc& odd, std::ostream* out) { *out << odd.name; }
 
 class OddTrcs : public testing::TestWithParam<OddTrc> {};
 
-TEST_P(OddTrcs, AreReadAsThePlainOne) {
+TEST_P(OddTrcs, AreReadLikeThePlainFile) {
   const auto read = ReadText(GetParam().text);
   ExpectKneeAndHead(read, GetParam().size);
   EXPECT_TRUE(read.warnings.empty()) << read.warnings.front();
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         OddTrc{"NoLastLineEnd", kTrc.substr(0, kTrc.size() - 1)}),
     [](const auto& info) { return std::string(info.param.name); });
 
-TEST(Trc, NanOfAnyProgramIsABlank) {
+TEST(Trc, NanInAnySpellingIsMissing) {
   for (const char* nan : {"NaN", "nan", "-nan", "-nan(ind)", "1.#QNAN", ""}) {
     const std::string gap = std::string(nan) + "\t" + nan + "\t" + nan;
     const auto read = ReadText(ReplacedAll(kTrc, "110.50\t500.25\t10.00", gap));
@@ -82,7 +82,7 @@ TEST(Trc, NanOfAnyProgramIsABlank) {
   }
 }
 
-TEST(Trc, OfMoreOrFewerRowsThanItSaysIsWhatIsThereWithAWarning) {
+TEST(Trc, WrongRowCountKeepsTheRowsWithAWarning) {
   for (const char* said : {"\t2\t2\tmm", "\t9\t2\tmm"}) {
     const auto read = ReadText(ReplacedAll(kTrc, "\t3\t2\tmm", said));
     ExpectKneeAndHead(read);
@@ -92,7 +92,7 @@ TEST(Trc, OfMoreOrFewerRowsThanItSaysIsWhatIsThereWithAWarning) {
 }
 
 // Missing digits would give another position.
-TEST(Trc, TimesOfAnotherUnitThanItsRatesAreToldOf) {
+TEST(Trc, WarnsIfTimesAndRateDisagree) {
   std::string text = ReplacedAll(kTrc, "\t0.03\t", "\t33.3\t");
   const auto read = ReadText(ReplacedAll(text, "\t0.06\t", "\t66.7\t"));
   EXPECT_EQ(read.frames[2].time_s, 66.7);
@@ -102,7 +102,7 @@ TEST(Trc, TimesOfAnotherUnitThanItsRatesAreToldOf) {
       << read.warnings[0];
 }
 
-TEST(Trc, CutInsideItsLastRowIsRefused) {
+TEST(Trc, TruncatedLastRowIsRefused) {
   const size_t row = kTrc.find("3\t0.06");
   for (size_t length = row + 1; length + 1 < kTrc.size(); ++length) {
     EXPECT_NE(ComplaintAbout(kTrc.substr(0, length)), "") << kTrc.substr(row, length - row);
@@ -111,7 +111,7 @@ TEST(Trc, CutInsideItsLastRowIsRefused) {
 }
 
 // Some programs write z up; the format's up axis is y. Here the knee is below the hips.
-TEST(Trc, OfPeopleWhoStandAlongZIsTurnedUprightWithAWarning) {
+TEST(Trc, ZUpIsConvertedWithAWarning) {
   std::string text = ReplacedAll(kTrc, "\t3\t2\tmm", "\t3\t3\tmm");
   text = ReplacedAll(text, "\tHead\t\t", "\tHead\t\t\tPelvis\t\t");
   text = ReplacedAll(text, "X2\tY2\tZ2", "X2\tY2\tZ2\tX3\tY3\tZ3");
@@ -129,7 +129,7 @@ TEST(Trc, OfPeopleWhoStandAlongZIsTurnedUprightWithAWarning) {
   EXPECT_EQ(read.warnings[0], "file: the body stands along z: z is taken as up");
 }
 
-TEST(Trc, OfWhomNobodyStandsIsDoubted) {
+TEST(Trc, WarnsIfNobodyStandsUpright) {
   const std::string standing = ReplacedAll(kTrc, "LKnee", "Pelvis");
   EXPECT_TRUE(ReadText(standing).warnings.empty());
   const std::string lying = ReplacedAll(standing, "\t0.00\t1600.00\t", "\t1600.00\t500.00\t");
@@ -138,7 +138,7 @@ TEST(Trc, OfWhomNobodyStandsIsDoubted) {
   EXPECT_NE(read.warnings[0].find("never stands along the axis taken as up"), std::string::npos);
 }
 
-TEST(Trc, OfTwoSubjectsIsTwoBodies) {
+TEST(Trc, TwoSubjectsAreTwoBodies) {
   const auto read =
       ReadText(ReplacedAll(ReplacedAll(kTrc, "LKnee", "Ann:LKnee"), "Head", "Bob:Head"));
   ASSERT_EQ(read.frames[0].bodies.size(), 2u);
@@ -152,7 +152,7 @@ TEST(Trc, OfTwoSubjectsIsTwoBodies) {
 
 const std::string kUnknownTrc = ReplacedAll(ReplacedAll(kTrc, "LKnee", "M01"), "Head", "M02");
 
-TEST(Trc, WithoutKnownNamesSaysWhichItHasAndHowToMapThem) {
+TEST(Trc, NoKnownNamesAreRefusedWithAListAndTheMappingOption) {
   const std::string complaint = ComplaintAbout(kUnknownTrc);
   EXPECT_NE(complaint.find("file: line 4: expected points named as joints"), std::string::npos);
   EXPECT_NE(complaint.find("found 'M01', 'M02': say in a file for --mapping"), std::string::npos)
@@ -171,7 +171,7 @@ TEST(Trc, NamesInAnyLanguageAreListedAsTheyAre) {
   EXPECT_NE(complaint.find(said), std::string::npos) << complaint;
 }
 
-TEST(Trc, WithAJointTwiceIsReadWithAWarningThatNamesTheOther) {
+TEST(Trc, DuplicatedJointGivesAWarning) {
   const auto read = ReadText(ReplacedAll(kTrc, "Head", "L_Knee"));
   EXPECT_LT((At(read, 1, Joint::kKneeLeft) - Eigen::Vector3d(0.1105, 0.50025, 0.01)).norm(), 1e-9);
   ASSERT_FALSE(read.warnings.empty());
@@ -180,7 +180,7 @@ TEST(Trc, WithAJointTwiceIsReadWithAWarningThatNamesTheOther) {
       << read.warnings.back();
 }
 
-TEST(Trc, WithFewKnownNamesIsReadWithAWarningThatListsAll) {
+TEST(Trc, FewKnownNamesGiveAWarningThatListsAll) {
   const auto read = ReadText(ReplacedAll(kTrc, "Head", "M02"));
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_NE(read.warnings[0].find("only 1 of the points are known"), std::string::npos);
@@ -198,7 +198,7 @@ class MappedPoints : public testing::Test {
   ossa::test::TemporaryFolder folder_;
 };
 
-TEST_F(MappedPoints, AreJointsOrBonesAndTheMiddleOfSeveral) {
+TEST_F(MappedPoints, AreJointsBonesOrMidpoints) {
   ExpectKneeAndHead(ReadText(kUnknownTrc, Mapping("KneeLeft = M01\nHead=M02\n")));
   ExpectKneeAndHead(ReadText(kUnknownTrc, Mapping("LeftLeg = M01\nHead = M02\n")));
   const auto middle = ReadText(kUnknownTrc, Mapping("Spine = M01 + M02\n"));
@@ -206,13 +206,13 @@ TEST_F(MappedPoints, AreJointsOrBonesAndTheMiddleOfSeveral) {
             1e-9);
 }
 
-TEST_F(MappedPoints, AreRefusedByTheLineThatNamesNone) {
+TEST_F(MappedPoints, UnknownPointIsRefusedWithTheMappingsLine) {
   const auto options = Mapping("# of ours\nKneeLeft = M01\nHead = M03\n");
   ossa::test::ExpectRefused([&] { ReadText(kUnknownTrc, options); },
                             "names.txt: line 3: expected a point of file, found 'M03'");
 }
 
-TEST_F(MappedPoints, OfAC3dAreReadLikewise) {
+TEST_F(MappedPoints, MapC3dPointsToo) {
   const std::string text = ReplacedAll(C3dBytes(), "HipCenter Head", "Ball      Hat ");
   const std::string complaint = ComplaintAbout(text);
   EXPECT_NE(complaint.find("found 'Ball', 'Hat'"), std::string::npos) << complaint;
@@ -220,7 +220,7 @@ TEST_F(MappedPoints, OfAC3dAreReadLikewise) {
   EXPECT_LT((At(read, 0, Joint::kHead) - At(ReadText(C3dBytes()), 0, Joint::kHead)).norm(), 1e-12);
 }
 
-TEST(TrcUnits, OfAnotherThanTheFileIsInAreToldOf) {
+TEST(TrcUnits, WrongUnitsGiveAWarning) {
   const ossa::test::TemporaryFolder folder;
   WriteSkeletons(folder / "x.trc", ExampleSequence(5));
   std::ifstream file(folder / "x.trc");

@@ -34,7 +34,7 @@ size_t FramesAt(const std::string& path) { return ReadSkeletons(path).frames.siz
 
 using Names = std::vector<std::string>;
 
-TEST(RecordingNames, OneOfAnArchiveMayBeAPartOfAnothers) {
+TEST(RecordingNames, NameMayBePartOfAnother) {
   const test::TemporaryFolder folder;
   const std::string tar = folder / "sel.tar";
   WriteTar(tar, {{"1.jsonl", Walk(1)},
@@ -48,7 +48,7 @@ TEST(RecordingNames, OneOfAnArchiveMayBeAPartOfAnothers) {
   EXPECT_EQ(NamesAt(tar + "#1.j"), (Names{"1", "11", "set/1", "set/21"})) << "a part of all";
 }
 
-TEST(RecordingNames, OfNoneIsReadThatComesAfterTheEnd) {
+TEST(RecordingNames, StopReadingAfterTheLastWanted) {
   const test::TemporaryFolder folder;
   WriteWalk(folder / "walks/walk.jsonl", 2);
   WriteTar(folder / "walks.tar", {{"walk.jsonl", Walk(2)}});
@@ -61,7 +61,7 @@ TEST(RecordingNames, OfNoneIsReadThatComesAfterTheEnd) {
 }
 
 // `walks#walk` must not match the folder name itself.
-TEST(RecordingNames, OfAFolderAreThoseInsideIt) {
+TEST(RecordingNames, FoldersListTheirRecordings) {
   const test::TemporaryFolder folder;
   const std::string walks = folder / "walks";
   WriteWalk(walks + "/walk.jsonl", 2);
@@ -73,7 +73,7 @@ TEST(RecordingNames, OfAFolderAreThoseInsideIt) {
   test::ExpectRefused([&] { ReadSkeletons(walks + "#walks"); }, "holds no skeleton recording");
 }
 
-TEST(RecordingNames, OfArchivesInAFolderBeginWithTheArchives) {
+TEST(RecordingNames, BeginWithTheArchivesNameInAFolder) {
   const test::TemporaryFolder folder;
   const std::string people = folder / "people";
   std::filesystem::create_directory(people);
@@ -88,7 +88,7 @@ TEST(RecordingNames, OfArchivesInAFolderBeginWithTheArchives) {
 }
 
 // Other files there may be large or damaged.
-TEST(RecordingNames, OfOtherFilesLeaveArchivesClosed) {
+TEST(RecordingNames, OtherNamesDoNotOpenArchives) {
   const test::TemporaryFolder folder;
   WriteWalk(folder / "walks/walk.jsonl", 2);
   std::ofstream(folder / "walks/other.tgz") << "\x1F\x8B is no archive";
@@ -112,7 +112,7 @@ TEST(RecordingNames, MayFollowAPathWithAHash) {
                       odd + "/gone.tar#11: no such file or folder");
 }
 
-TEST(RecordingNames, AreAdvisedAsTheyCanBeSaid) {
+TEST(RecordingNames, SuggestionsAreUsableNames) {
   const test::TemporaryFolder folder;
   const std::string tar = folder / "sel.tar";
   WriteTar(tar, {{"1.jsonl", Walk(1)}, {"11.jsonl", Walk(11)}});
@@ -122,7 +122,7 @@ TEST(RecordingNames, AreAdvisedAsTheyCanBeSaid) {
 
 // If Kinect and Vicon data are in separate folders, "all.tar#kinect" and "all.tar#vicon" select the
 // same files, and their difference is 0.00 cm.
-TEST(RecordingNames, ThatChooseOneOfTwoSkeletonsAreWarnedOfWhereThereAreNone) {
+TEST(RecordingNames, SkeletonChoiceWarnsIfThereIsNone) {
   const test::TemporaryFolder folder;
   const std::string tar = folder / "all.tar";
   WriteTar(tar, {{"Kinect/1.jsonl", Walk(1)}, {"Vicon/1.jsonl", Walk(2)}});
@@ -136,7 +136,7 @@ TEST(RecordingNames, ThatChooseOneOfTwoSkeletonsAreWarnedOfWhereThereAreNone) {
 }
 
 // Otherwise the results of one would overwrite those of the other.
-TEST(RecordingNames, OfAFolderDiffer) {
+TEST(RecordingNames, AreUniqueInAFolder) {
   const test::TemporaryFolder folder;
   const std::string walks = folder / "walks";
   WriteWalk(walks + "/s01/x.jsonl", 2);
@@ -144,7 +144,7 @@ TEST(RecordingNames, OfAFolderDiffer) {
   EXPECT_EQ(NamesAt(walks), (Names{"s01/x", "s01/x_2"}));
 }
 
-TEST(RecordingNames, AreNoneOfASingleFiles) {
+TEST(RecordingNames, SingleFilesHaveNone) {
   const test::TemporaryFolder folder;
   const std::string walk = folder / "walk.jsonl";
   WriteWalk(walk, 2);

@@ -54,14 +54,14 @@ TEST(MsrAction3D, HasItsOwnOrderAndConfidences) {
   EXPECT_EQ(read.frames[0].bodies[0].joints[0]->confidence, 0.9);
 }
 
-TEST(UtKinect, TakesTimesFromFrameNumbersAndDoubledFramesOnce) {
+TEST(UtKinect, TimesFollowFrameNumbersAndDuplicatesCountOnce) {
   const auto read = Read(UtText());
   ASSERT_EQ(read.frames.size(), 3u);
   EXPECT_NEAR(read.frames[2].time_s, 4 / 30.0, kExact);
   ExpectAt(read, 0, Joint::kFootRight, 0.19, 0.5, 2);
 }
 
-TEST(Labanotation, TakesTwentyOfTwentyFiveJointsWithTicksAndStates) {
+TEST(Labanotation, ReadsTwentyOfTwentyFiveJointsWithTicksAndStates) {
   const auto read = Read(LabanText(2));
   ASSERT_EQ(read.frames.size(), 2u);
   EXPECT_EQ(read.sensor, kKinectV2);
@@ -97,7 +97,7 @@ TEST(Ntu, ReadsBodiesAndLeavesEmptyFramesEmpty) {
   ExpectAt(read, 1, Joint::kAnkleRight, 0.18, 0.3, 2);
 }
 
-TEST(Ntu, OrientationsAreInTheConventionOfSdk1) {
+TEST(Ntu, OrientationsFollowTheConventionOfSdk1) {
   const auto read = Read(ReplacedAll(NtuText(), "0.2 0.1 0.3 nan", "0.5 0.5 0.5 0.5"));
   const Eigen::Quaterniond sdk2(0.5, 0.5, 0.5, 0.5);
   const auto& joints = read.frames[1].bodies[0].joints;
@@ -121,7 +121,7 @@ TEST(Ntu, WithoutOrientationsKeepsThePositions) {
   }
 }
 
-TEST(UiPrmdTable, HoldsTwoSkeletonsOfWhichOneIsChosen) {
+TEST(UiPrmdTable, ContainsTwoSkeletonsToChooseFrom) {
   const std::string text =
       "t_s,K_Waist_SpineBase_x,K_Waist_SpineBase_y,K_Waist_SpineBase_z,K_Neck2_Neck_x,"
       "K_Neck2_Neck_y,K_Neck2_Neck_z,K_LHand_LWrist_x,K_LHand_LWrist_y,K_LHand_LWrist_z,"
@@ -142,7 +142,7 @@ TEST(UiPrmdTable, HoldsTwoSkeletonsOfWhichOneIsChosen) {
   EXPECT_NE(ComplaintAbout(text).find("file#truth or file#observed"), std::string::npos);
 }
 
-TEST(Itop, TurnsTheXAxisRound) {
+TEST(Itop, NegatesTheXAxis) {
   const std::string text =
       "frame,G_RHand_x,G_RHand_y,G_RHand_z,P_RHand_x,P_RHand_y,P_RHand_z\n"
       "3,-0.4,0.1,2.5,-0.5,0.2,2.6\n"
@@ -203,7 +203,7 @@ TEST(UiPrmdOriginal, GivesJointCentresFromMarkers) {
 
 // They have as many numbers as Vicon's markers or Kinect's joints: degrees must not be read as
 // lengths.
-TEST(UiPrmdOriginal, AnglesAreNoPlaces) {
+TEST(UiPrmdOriginal, AnglesFilesAreRefused) {
   const test::TemporaryFolder folder;
   for (const int columns : {117, 66}) {
     std::ofstream file(folder / "m01_s01_e01_angles.txt");
@@ -216,7 +216,7 @@ TEST(UiPrmdOriginal, AnglesAreNoPlaces) {
   }
 }
 
-TEST(AzureKinect, TurnsAxesAndMillimetres) {
+TEST(AzureKinect, ConvertsAxesAndMillimetres) {
   const auto read = Read(AzureText());
   ASSERT_EQ(read.frames.size(), 2u);
   EXPECT_EQ(read.frames[0].bodies[0].id, 4);
@@ -225,7 +225,7 @@ TEST(AzureKinect, TurnsAxesAndMillimetres) {
   EXPECT_NEAR(read.frames[1].time_s, 0.033333, kExact);
 }
 
-TEST(KinectStreamSaver, ReadsOnlyTheSkeletonsThatWereSeen) {
+TEST(KinectStreamSaver, ReadsOnlyTrackedSkeletons) {
   const auto read = Read(SaverBytes(3));
   ASSERT_EQ(read.frames.size(), 3u);
   ASSERT_EQ(read.frames[1].bodies.size(), 1u);
@@ -241,7 +241,7 @@ std::string SaverTimesBytes() {
   return bytes;
 }
 
-TEST(KinectStreamSaver, TakesTimesFromTheFileBesideIt) {
+TEST(KinectStreamSaver, ReadsTimesFromTheFileBesideIt) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "Joint_Position.binary", std::ios::binary) << SaverBytes(2);
   std::ofstream(folder / "liTimeStamp.binary", std::ios::binary) << SaverTimesBytes();
@@ -254,7 +254,7 @@ void ExpectOwnTimes(const SkeletonSequence& read, double second_s) {
   EXPECT_NE(read.warnings.back().find("times of its own"), std::string::npos);
 }
 
-TEST(FrameRate, IsOfFilesThatStateNone) {
+TEST(FrameRate, AppliesToFilesWithoutTimes) {
   SkeletonReadOptions slower;
   slower.frame_s = 0.125;
   const test::TemporaryFolder folder;
@@ -268,7 +268,7 @@ TEST(FrameRate, IsOfFilesThatStateNone) {
 }
 
 // The file of times is not a recording of its own.
-TEST(KinectStreamSaver, IsReadAsTheFolderOrArchiveThatItIs) {
+TEST(KinectStreamSaver, IsReadFromFoldersAndArchives) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "walk");
   std::ofstream(folder / "walk/Joint_Position.binary", std::ios::binary) << SaverBytes(2);
@@ -299,7 +299,7 @@ std::string NameOfCase(const testing::TestParamInfo<Wrong>& info) { return info.
 
 class WrongSdkFile : public testing::TestWithParam<Wrong> {};
 
-TEST_P(WrongSdkFile, IsRefusedInOneLineByItsPlaceAndExpectation) {
+TEST_P(WrongSdkFile, IsRefusedInOneLineWithPlaceAndExpectation) {
   const std::string complaint = ComplaintAbout(GetParam().text);
   EXPECT_TRUE(complaint.starts_with("file")) << complaint;
   EXPECT_NE(complaint.find("expected"), std::string::npos) << complaint;
@@ -372,7 +372,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"Ntu", NtuText() + std::string(2 << 20, '1'), "1 MiB"}),
     NameOfCase);
 
-TEST(C3d, OfWhichNoPointIsSeenHoldsNobody) {
+TEST(C3d, FileWithoutVisiblePointsHasNoBody) {
   std::string unseen = C3dBytes();
   for (size_t point = 0; point < 6; ++point) Put<float>(unseen, 1024 + 16 * point + 12, -1.0f);
   const auto read = Read(unseen);
@@ -380,7 +380,7 @@ TEST(C3d, OfWhichNoPointIsSeenHoldsNobody) {
   for (const SkeletonFrame& frame : read.frames) EXPECT_TRUE(frame.bodies.empty());
 }
 
-TEST(C3d, OfAnotherProcessorIsRefusedByName) {
+TEST(C3d, UnknownProcessorIsRefusedByName) {
   std::string bytes = C3dBytes();
   bytes[512 + 3] = 99;
   EXPECT_NE(ComplaintAbout(bytes).find("processor type"), std::string::npos);
@@ -408,7 +408,7 @@ void PrintTo(const RealFile& value, std::ostream* out) { *out << value.name; }
 class RealSamples : public testing::TestWithParam<RealFile> {};
 
 // Bones of all real files have human lengths if units and joint maps are right.
-TEST_P(RealSamples, GiveBodiesOfHumanSize) {
+TEST_P(RealSamples, HaveHumanSize) {
   const std::string path = (test::SharedFolder() / "real" / GetParam().path).string();
   if (!std::filesystem::exists(path.substr(0, path.find('#')))) {
     GTEST_SKIP() << path << " is not here";
@@ -452,7 +452,7 @@ AgainstSdk2 MedianAgainstSdk2(const SkeletonSequence& sequence, Joint joint) {
 
 // docs/kinect_sdk.md: the SDK 2's orientations, as they are read. Those of wrists and hands turn
 // with thumb and fingers, which the joints do not determine.
-TEST(RealKinectV2, TurnsBonesAsOurs) {
+TEST(RealKinectV2, OrientationsMatchOurs) {
   const std::string path =
       test::SharedFolder() / "real/keraal_kinect_vicon/pairs/G3-Kinect-CTK-P1T1-Unknown-C-0.txt";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";

@@ -52,7 +52,7 @@ class SharedCase : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(SharedCase, ComesOutAsItsBase) {
+TEST_P(SharedCase, EqualsItsReference) {
   const auto base = ReadSkeletons(Cases() / GetParam().base);
   const auto read = ReadSkeletons(Cases() / GetParam().file);
   ASSERT_EQ(read.frames.size(), base.frames.size());
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 // A BVH must not be retargeted to the standard body.
-TEST(SharedCaseOf, BvhAndTrcOfOneMotionAreTheSame) {
+TEST(SharedCaseOf, BvhAndTrcOfOneMotionAreEqual) {
   if (!std::filesystem::exists(Cases())) GTEST_SKIP() << "no " << Cases();
   const auto bvh = ReadSkeletons(Cases() / "base.bvh");
   const auto trc = ReadSkeletons(Cases() / "base_mm.trc");
@@ -101,7 +101,7 @@ TEST(SharedCaseOf, BvhAndTrcOfOneMotionAreTheSame) {
   EXPECT_LT(FarthestApart_m(bvh, trc), kBvh_m);
 }
 
-TEST(SharedCaseOf, AChildOf112CentimetresIsOfItsSize) {
+TEST(SharedCaseOf, ChildOf112CentimetresKeepsItsSize) {
   if (!std::filesystem::exists(Cases())) GTEST_SKIP() << "no " << Cases();
   const auto child = ReadSkeletons(Cases() / "bvh/child_112cm.bvh");
   const auto adult = ReadSkeletons(Cases() / "base.bvh");
@@ -115,7 +115,7 @@ TEST(SharedCaseOf, AChildOf112CentimetresIsOfItsSize) {
   }
 }
 
-TEST(SharedCaseOf, NanInATrcIsABlank) {
+TEST(SharedCaseOf, NanInATrcIsMissing) {
   if (!std::filesystem::exists(Cases())) GTEST_SKIP() << "no " << Cases();
   const auto base = ReadSkeletons(Cases() / "base_mm.trc");
   const auto read = ReadSkeletons(Cases() / "trc/gap_NaN.trc");
@@ -125,7 +125,7 @@ TEST(SharedCaseOf, NanInATrcIsABlank) {
   EXPECT_LT(FarthestApart_m(read, base), kTrc_m);
 }
 
-TEST(SharedCaseOf, NtuWithNanOrAWrongCountKeepsWhatIsSound) {
+TEST(SharedCaseOf, NtuWithNanOrAWrongCountKeepsValidData) {
   if (!std::filesystem::exists(Cases())) GTEST_SKIP() << "no " << Cases();
   const auto nan = ReadSkeletons(Cases() / "ntu/nan_joints.skeleton");
   const auto more = ReadSkeletons(Cases() / "ntu/count_more.skeleton");

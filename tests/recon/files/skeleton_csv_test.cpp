@@ -35,13 +35,13 @@ TEST(SkeletonCsv, KeepsSecondsSince1970) {
 }
 
 // Equal frame numbers do not mean the same frame.
-TEST(SkeletonCsv, KeepsFramesWhoseNumbersStandStill) {
+TEST(SkeletonCsv, KeepsFramesWithRepeatedNumbers) {
   SkeletonSequence sequence = ExampleSequence(60);
   for (SkeletonFrame& frame : sequence.frames) frame.frame = 0;
   ExpectSameFrames(ThroughCsv(sequence), sequence);
 }
 
-TEST(SkeletonCsv, KeepsFramesWhoseNumbersAndTimesStandStill) {
+TEST(SkeletonCsv, KeepsFramesWithRepeatedNumbersAndTimes) {
   SkeletonSequence sequence = ExampleSequence(12, 2);
   for (size_t f = 0; f < 12; ++f) {
     sequence.frames[f].frame = 0;
@@ -51,7 +51,7 @@ TEST(SkeletonCsv, KeepsFramesWhoseNumbersAndTimesStandStill) {
   ExpectSameFrames(ThroughCsv(sequence), sequence);
 }
 
-TEST(SkeletonCsv, KeepsEveryNumberThatAFrameMayHave) {
+TEST(SkeletonCsv, KeepsEveryFrameNumber) {
   SkeletonSequence sequence = ExampleSequence(4);
   sequence.frames[0].frame = std::numeric_limits<int64_t>::min();
   sequence.frames[1].frame = -3;

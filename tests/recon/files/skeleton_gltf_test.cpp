@@ -32,7 +32,7 @@ std::string TextOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(GltfWriter, WithoutABodyThereAreBonesAlone) {
+TEST(GltfWriter, WithoutAMeshWritesBonesOnly) {
   const test::TemporaryFolder folder;
   WriteSkeletons(folder / "x.glb", ExampleSequence(5), {});
   const std::string text = TextOf(folder / "x.glb");
@@ -41,7 +41,7 @@ TEST(GltfWriter, WithoutABodyThereAreBonesAlone) {
   EXPECT_EQ(text.find("\"skin\""), std::string::npos);
 }
 
-TEST(GltfWriter, BonesAreNamedAsAsked) {
+TEST(GltfWriter, BonesHaveTheRequestedNames) {
   const test::TemporaryFolder folder;
   SkeletonWriteOptions options;
   options.names = BvhNames::kMixamo;
@@ -49,7 +49,7 @@ TEST(GltfWriter, BonesAreNamedAsAsked) {
   EXPECT_NE(TextOf(folder / "x.glb").find("mixamorig:LeftForeArm"), std::string::npos);
 }
 
-TEST(GltfWriter, SaysTheSameEveryTime) {
+TEST(GltfWriter, WritesTheSameBytesEveryTime) {
   const test::TemporaryFolder folder;
   WriteSkeletons(folder / "a.glb", ExampleSequence(5, 2), {});
   WriteSkeletons(folder / "b.glb", ExampleSequence(5, 2), {});
@@ -57,7 +57,7 @@ TEST(GltfWriter, SaysTheSameEveryTime) {
 }
 
 // People without a fit must not get an uninitialised shape.
-TEST(GltfWriter, WhoseShapeIsNotKnownHasTheMeanBody) {
+TEST(GltfWriter, UnknownShapeGivesTheMeanBody) {
   const auto body = ShippedBody();
   if (!body) GTEST_SKIP() << "no shipped body";
   SkeletonWriteOptions options;
@@ -78,7 +78,7 @@ TEST(GltfWriter, WhoseShapeIsNotKnownHasTheMeanBody) {
 }
 
 // Point formats represent an unseen person as a body without joints.
-TEST(GltfWriter, ABodyWithoutAJointIsNotThere) {
+TEST(GltfWriter, BodiesWithoutJointsAreOmitted) {
   const test::TemporaryFolder folder;
   SkeletonSequence lost = ExampleSequence(5);
   WriteSkeletons(folder / "always.glb", lost, {});
@@ -88,7 +88,7 @@ TEST(GltfWriter, ABodyWithoutAJointIsNotThere) {
   EXPECT_NE(TextOf(folder / "lost.glb").find("\"scale\""), std::string::npos);
 }
 
-TEST(GltfWriter, ARecordingOfNobodyIsRefused) {
+TEST(GltfWriter, RecordingWithoutBodiesIsRefused) {
   const test::TemporaryFolder folder;
   SkeletonSequence nobody = ExampleSequence(3);
   for (SkeletonFrame& frame : nobody.frames) frame.bodies.clear();
@@ -97,7 +97,7 @@ TEST(GltfWriter, ARecordingOfNobodyIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder / "x.glb"));
 }
 
-TEST(GltfWriter, OnAFullDiskLeavesNothing) {
+TEST(GltfWriter, LeavesNoFileOnAFullDisk) {
   const test::TemporaryFolder folder;
   {
     const test::FullDisk disk(5000);
@@ -110,7 +110,7 @@ TEST(GltfWriter, OnAFullDiskLeavesNothing) {
 }
 
 // A skin is some 200 kB.
-TEST(GltfWriter, WhereTheSkinDoesNotFitTheMotionIsKept) {
+TEST(GltfWriter, KeepsTheMotionIfTheSkinDoesNotFit) {
   const auto body = ShippedBody();
   if (!body) GTEST_SKIP() << "no shipped body";
   SkeletonWriteOptions options;

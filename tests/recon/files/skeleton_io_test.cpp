@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryWrittenFormat, testing::Values(".jsonl", ".cs
 
 // A table of blank rows must not become a person without joints, whom `ossa reconstruct` would
 // invent.
-TEST_P(EveryWrittenFormat, OfNobodyIsReadBackAsNobody) {
+TEST_P(EveryWrittenFormat, RecordingWithoutBodiesIsReadBack) {
   const test::TemporaryFolder folder;
   SkeletonSequence nobody = ExampleSequence(3);
   for (SkeletonFrame& frame : nobody.frames) frame.bodies.clear();
@@ -61,7 +61,7 @@ TEST_P(EveryWrittenFormat, OfNobodyIsReadBackAsNobody) {
 }
 
 // Rows are blank while a person is out of view.
-TEST(TrcFile, KeepsABodyThatIsLostForAWhile) {
+TEST(TrcFile, KeepsABodyThatIsTemporarilyLost) {
   const test::TemporaryFolder folder;
   SkeletonSequence lost = ExampleSequence(3);
   lost.frames[1].bodies.clear();
@@ -91,7 +91,7 @@ TEST(BvhFile, HoldsTheSamePostureWithConstantBones) {
   EXPECT_LT((At(read, 7, Joint::kHandLeft) - At(stiff, 7, Joint::kHandLeft)).norm(), 1e-4);
 }
 
-TEST(SkeletonFiles, OfAnUnknownExtensionAreRefusedBeforeAnythingIsWritten) {
+TEST(SkeletonFiles, UnknownExtensionIsRefusedBeforeWriting) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(WriteSkeletons(folder / "walk.xyz", ExampleSequence(1)), InputError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
@@ -137,7 +137,7 @@ TEST(TrcFile, HasTheHeaderAndColumnsThatOpenSimExpects) {
   EXPECT_EQ(rows[6][2 + 3 * 7], "") << "a joint that is absent is a blank cell";
 }
 
-TEST(TrcFile, OfSeveralPeopleIsAFilePerPerson) {
+TEST(TrcFile, SeveralPeopleGiveAFileEach) {
   const test::TemporaryFolder folder;
   WriteSkeletons(folder / "two.trc", ExampleSequence(3, 2));
   const double apart = At(ReadSkeletons(folder / "two_2.trc"), 0, Joint::kHead).x() -
@@ -145,7 +145,7 @@ TEST(TrcFile, OfSeveralPeopleIsAFilePerPerson) {
   EXPECT_NEAR(apart, 1.0, kTolerance_m);
 }
 
-TEST(SkeletonClips, OfAFolderAreSortedByNameAndSkipWhatIsNoRecording) {
+TEST(SkeletonClips, FoldersAreSortedByNameAndSkipOtherFiles) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "b");
   WriteSkeletons(folder / "b/two.jsonl", ExampleSequence(2));
@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const testing::TestParamInfo<Wrong>& info) { return info.param.name; });
 
 // A position of 1e300 m would give an infinite mean error.
-TEST(SkeletonFiles, WithAPlaceNobodyCanBeAtAreRefusedByFrameAndJoint) {
+TEST(SkeletonFiles, ImpossiblePositionIsRefusedWithFrameAndJoint) {
   std::string text = ExampleText(".jsonl");
   const size_t head = text.find("\"p\":[", text.find("\"Head\""));
   text.replace(head, text.find(']', head) - head, "\"p\":[0,1e300,0");
@@ -222,7 +222,7 @@ TEST(SkeletonFiles, WithAPlaceNobodyCanBeAtAreRefusedByFrameAndJoint) {
 }
 
 // Its header names the file, on one line.
-TEST(SkeletonFiles, OfATrcMayHaveAnyName) {
+TEST(SkeletonFiles, TrcIsRecognisedUnderAnyName) {
   const test::TemporaryFolder folder;
   WriteSkeletons(folder / "two\nlines\t.trc", ExampleSequence(3));
   ExpectSamePositions(ReadSkeletons(folder / "two\nlines\t.trc"), ExampleSequence(3));
@@ -239,7 +239,7 @@ std::string ExampleTextAt(const char* extension, const std::vector<double>& time
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(SkeletonTimes, ThatRunBackwardsOrLeapAreRefusedByLine) {
+TEST(SkeletonTimes, BackwardsOrLeapingTimesAreRefusedByLine) {
   struct Format {
     const char* extension;
     const char* line;
@@ -256,7 +256,7 @@ TEST(SkeletonTimes, ThatRunBackwardsOrLeapAreRefusedByLine) {
 }
 
 // Speeds and time alignment would be meaningless.
-TEST(SkeletonTimes, ThatStandStillAreRefused) {
+TEST(SkeletonTimes, ConstantTimesAreRefused) {
   for (const char* extension : {".jsonl", ".trc", ".csv"}) {
     EXPECT_EQ(ComplaintAbout(ExampleTextAt(extension, {1, 1, 1, 1})),
               "file: expected times that grow from frame to frame, found 3 of 4 frames at the time "
@@ -265,7 +265,7 @@ TEST(SkeletonTimes, ThatStandStillAreRefused) {
 }
 
 // Loggers poll twice per sensor frame; clocks start anywhere; recordings may pause.
-TEST(SkeletonTimes, MayRepeatOnceBeginAnywhereAndPause) {
+TEST(SkeletonTimes, MayRepeatOnceStartAnywhereAndPause) {
   for (const std::vector<double>& times_s : {std::vector<double>{0, 0, 0.1, 0.1},
                                              {-5, -4, 0, 1},
                                              {1.7e9, 1.7e9 + 0.1, 1.7e9 + 3600},
@@ -303,7 +303,7 @@ void WriteBytes(const std::filesystem::path& path, std::string_view hex) {
 }
 
 // Without a UTF-8 locale libarchive has no name for either.
-TEST(SkeletonArchives, MembersMayBeNamedBeyondAscii) {
+TEST(SkeletonArchives, MemberNamesMayBeNonAscii) {
   const test::TemporaryFolder folder;
   WriteBytes(folder / "x.zip", kZip);
   const auto clips = ReadSkeletonClips(folder / "x.zip");
@@ -313,7 +313,7 @@ TEST(SkeletonArchives, MembersMayBeNamedBeyondAscii) {
 }
 
 // Results are written under the names of members.
-TEST(SkeletonArchives, MembersWhoseNamesLeadOutAreRefused) {
+TEST(SkeletonArchives, MembersOutsideTheArchiveAreRefused) {
   const test::TemporaryFolder folder;
   for (const std::string_view zip : kZipsThatLeadOut) {
     WriteBytes(folder / "x.zip", zip);
@@ -322,7 +322,7 @@ TEST(SkeletonArchives, MembersWhoseNamesLeadOutAreRefused) {
 }
 
 // Otherwise results of one would overwrite those of the other.
-TEST(SkeletonClips, ThatDifferByTheirExtensionsAloneKeepThem) {
+TEST(SkeletonClips, KeepExtensionsThatDistinguishThem) {
   const test::TemporaryFolder folder;
   WriteSkeletons(folder / "a.csv", ExampleSequence(3));
   WriteSkeletons(folder / "a.jsonl", ExampleSequence(2));
@@ -335,7 +335,7 @@ TEST(SkeletonClips, ThatDifferByTheirExtensionsAloneKeepThem) {
   EXPECT_EQ(clips[2].name, "b");
 }
 
-TEST(SkeletonClips, OfAFolderAreNamedAsTheyLieThereThoughTheyAreLinks) {
+TEST(SkeletonClips, LinksKeepTheirNamesInTheFolder) {
   const test::TemporaryFolder folder;
   for (const char* name : {"elsewhere", "here"}) std::filesystem::create_directory(folder / name);
   for (const char* name : {"a.jsonl", "b.jsonl"}) {

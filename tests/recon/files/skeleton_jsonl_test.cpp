@@ -34,7 +34,7 @@ TEST(SkeletonJsonl, WritesExactlyTheDocumentedLine) {
             R"("q":[0.5,-0.5,0.5,0.5],"visible":false,"sigma":[0.01,0.02,0.03]}}}]})");
 }
 
-TEST(SkeletonJsonl, GivesBackEveryFieldItWrote) {
+TEST(SkeletonJsonl, ReadsBackEveryField) {
   SkeletonSequence written = ExampleSequence(5, 2);
   written.frames[1].floor.reset();
   written.frames[2].bodies.clear();
@@ -57,7 +57,7 @@ TEST(SkeletonJsonl, GivesBackEveryFieldItWrote) {
   EXPECT_NEAR(read.frames[3].bodies[0].bones_m->back(), bones_m.back(), 1e-7);
 }
 
-TEST(SkeletonJsonl, HasFloorsOfUnitNormalsOrNone) {
+TEST(SkeletonJsonl, RequiresUnitNormalsOfFloors) {
   const auto floor_of = [](const std::string& numbers) {
     std::istringstream text("{\"frame\":0,\"time_s\":0,\"floor\":" + numbers + ",\"bodies\":[]}\n");
     return ReadSkeletonJsonl(text, "x").frames[0].floor;
@@ -67,7 +67,7 @@ TEST(SkeletonJsonl, HasFloorsOfUnitNormalsOrNone) {
   EXPECT_FALSE(floor_of("[0,0,0,0]"));
 }
 
-TEST(SkeletonJsonl, NeverWritesANumberThatNoReaderTakes) {
+TEST(SkeletonJsonl, NeverWritesUnreadableNumbers) {
   SkeletonFrame frame;
   frame.time_s = std::nan("");
   EXPECT_THROW(SkeletonJsonLine(frame), std::invalid_argument);
@@ -95,7 +95,7 @@ struct BadLine {
 
 class BadJsonl : public testing::TestWithParam<BadLine> {};
 
-TEST_P(BadJsonl, IsRefusedInOneLineByLineAndExpectation) {
+TEST_P(BadJsonl, IsRefusedInOneLineWithLineAndExpectation) {
   SkeletonReadOptions options;
   options.format = "jsonl";
   const std::string complaint = ComplaintAbout(GetParam().text, options, "walk.jsonl");
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{std::string((size_t{1} << 20) + 10, 'x'), "1 MiB"},
         BadLine{std::string("\x00\xff\x01\x02", 4), "JSON"}));
 
-TEST(SkeletonJsonl, ReadsFramesWhileTheyComeAndSkipsUnknownKeys) {
+TEST(SkeletonJsonl, StreamsFramesAndSkipsUnknownKeys) {
   std::istringstream stream(
       "{\"frame\":0,\"time_s\":0,\"bodies\":[],\"later\":1}\n\n"
       "{\"frame\":1,\"time_s\":1,\"bodies\":[]}");

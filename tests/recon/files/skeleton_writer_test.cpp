@@ -43,7 +43,7 @@ TEST_P(EveryFormat, LeavesNothingWithoutFinish) {
   EXPECT_EQ(OnlyFileIn(folder_.path()), "");
 }
 
-TEST_P(EveryFormat, IsAsLongWithAnExtensionInCapitals) {
+TEST_P(EveryFormat, IsWrittenEquallyWithAnExtensionInCapitals) {
   std::string capitals = GetParam();
   for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   WriteSkeletons(path(), ExampleSequence(5));
@@ -62,7 +62,7 @@ long Resident_kB() {
 }
 
 // A person's frame is two and a half kilobytes.
-TEST_P(EveryFormat, TakesNoMemoryThatGrowsWithTheRecording) {
+TEST_P(EveryFormat, NeedsMemoryIndependentOfTheLength) {
   if (test::kSanitized) GTEST_SKIP() << "memory is the sanitizer's";
   const auto frames = ExampleSequence(100).frames;
   SkeletonWriter writer(path());
@@ -129,7 +129,7 @@ TEST_P(WholeFormats, OnAFullDiskKeepMostOfTheFramesThatFit) {
   EXPECT_EQ(TextOf(path()), TextOf(folder_ / (std::string("expected") + GetParam())));
 }
 
-TEST_P(WholeFormats, OnADiskWithoutRoomLeaveNothing) {
+TEST_P(WholeFormats, OnADiskWithoutSpaceLeaveNoFile) {
   SkeletonWriter writer(path());
   for (const SkeletonFrame& frame : ExampleSequence(5, 2).frames) writer.Write(frame);
   const FullDisk disk(100);
@@ -141,7 +141,7 @@ TEST_P(WholeFormats, OnADiskWithoutRoomLeaveNothing) {
 INSTANTIATE_TEST_SUITE_P(SkeletonWriter, WholeFormats, testing::Values(".bvh", ".glb"));
 
 // Under its temporary name, where it remains if the process is killed.
-TEST_P(LineFormats, CanBeReadBeforeTheyAreFinished) {
+TEST_P(LineFormats, AreReadableBeforeTheyAreFinished) {
   SkeletonWriter writer(path());
   for (const SkeletonFrame& frame : ExampleSequence(7).frames) writer.Write(frame);
   EXPECT_EQ(ReadSkeletons(OnlyFileIn(folder_.path())).frames.size(), 7U);
@@ -149,7 +149,7 @@ TEST_P(LineFormats, CanBeReadBeforeTheyAreFinished) {
 
 INSTANTIATE_TEST_SUITE_P(SkeletonWriter, LineFormats, testing::Values(".jsonl", ".csv", ".trc"));
 
-TEST(SkeletonWriter, OfTheLongestNameTheOthersFilesAreNamedShorter) {
+TEST(SkeletonWriter, ShortensNamesOfFurtherFilesIfNeeded) {
   const TemporaryFolder folder;
   const std::string name = std::string(251, 'n') + ".bvh";
   const SkeletonSequence two = ExampleSequence(5, 2);
@@ -164,7 +164,7 @@ TEST(SkeletonWriter, OfTheLongestNameTheOthersFilesAreNamedShorter) {
 }
 
 // Tables start with the recording, also for people who appear later.
-TEST(SkeletonWriter, WhoComesLaterHasATableOfAllFrames) {
+TEST(SkeletonWriter, LatePersonHasATableOfAllFrames) {
   const TemporaryFolder folder;
   SkeletonSequence sequence = ExampleSequence(9, 2);
   for (size_t f = 0; f < 4; ++f) sequence.frames[f].bodies.clear();
@@ -181,7 +181,7 @@ TEST(SkeletonWriter, WhoComesLaterHasATableOfAllFrames) {
 }
 
 // An SDK's unseen joint has an arbitrary position, usually the camera's; a table has no states.
-TEST(SkeletonWriter, ATableIsBlankWhereAJointIsNotTracked) {
+TEST(SkeletonWriter, UntrackedJointsAreBlankInTables) {
   const TemporaryFolder folder;
   SkeletonSequence sequence = ExampleSequence(2);
   JointRecord& head = *sequence.frames[1].bodies[0].joints[Index(Joint::kHead)];
@@ -194,7 +194,7 @@ TEST(SkeletonWriter, ATableIsBlankWhereAJointIsNotTracked) {
   EXPECT_TRUE(back[1].bodies[0].joints[Index(Joint::kSpine)]);
 }
 
-TEST(SkeletonWriter, ATableOfNobodyHasItsRows) {
+TEST(SkeletonWriter, TableWithoutBodiesHasItsRows) {
   const TemporaryFolder folder;
   SkeletonSequence sequence = ExampleSequence(3);
   for (SkeletonFrame& frame : sequence.frames) frame.bodies.clear();

@@ -45,7 +45,7 @@ class Lag : public testing::TestWithParam<int> {
   LagOptions options_ = LagOptions::Of(GetParam(), false);
 };
 
-TEST_P(Lag, LeavesSteadyMotionWhereItIs) {
+TEST_P(Lag, KeepsUniformMotion) {
   const auto seen = HandGoing(20, [](int f) { return 0.08 * f; });
   const auto made = SmoothSequence(seen, options_);
   for (size_t f = 0; f < 20; ++f) EXPECT_NEAR(HandAt(made, f), 0.08 * double(f), 1e-9) << f;
@@ -53,7 +53,7 @@ TEST_P(Lag, LeavesSteadyMotionWhereItIs) {
 
 // One weight beside the frame's own 1 already halves the variance of a second difference; the
 // written-out bound is that of weights 1/4, 1/2, 1/4: 70 / 256 / 6 of the squares, 21 % of lengths.
-TEST_P(Lag, TakesMostOfTheJitterAway) {
+TEST_P(Lag, RemovesMostJitter) {
   std::mt19937_64 rng(5);
   std::normal_distribution<double> noise_m(0.0, 0.01);
   const auto seen = HandGoing(300, [&](int) { return noise_m(rng); });
@@ -69,7 +69,7 @@ TEST_P(Lag, TakesMostOfTheJitterAway) {
 }
 
 // Loggers poll faster than the sensor delivers.
-TEST_P(Lag, OfTimesSaidTwiceSmoothsAsOfEachSaidOnce) {
+TEST_P(Lag, IgnoresRepeatedTimes) {
   std::mt19937_64 rng(6);
   std::normal_distribution<double> noise_m(0.0, 0.01);
   const auto once = HandGoing(60, [&](int) { return noise_m(rng); });
@@ -90,7 +90,7 @@ TEST_P(Lag, DoesNotSmearAJump) {
   for (size_t f = 0; f < 20; ++f) EXPECT_NEAR(HandAt(made, f), HandAt(seen, f), 0.02) << f;
 }
 
-TEST_P(Lag, StandsUnevenTimes) {
+TEST_P(Lag, HandlesUnevenTimes) {
   auto seen = HandGoing(20, [](int f) { return 0.02 * f; });
   seen.frames.erase(seen.frames.begin() + 7);
   const auto made = SmoothSequence(seen, options_);
@@ -99,7 +99,7 @@ TEST_P(Lag, StandsUnevenTimes) {
   }
 }
 
-TEST_P(Lag, ComesToAnEndAtAGapAndAtAnotherPerson) {
+TEST_P(Lag, EndsAtAGapAndAtAnotherPerson) {
   auto seen = HandGoing(20, [](int f) { return f % 2 == 0 ? 0.0 : 0.01; });
   for (size_t f = 10; f < 20; ++f) seen.frames[f].time_s += 0.5;
   seen.frames[5].bodies[0].id = 2;
@@ -118,7 +118,7 @@ TEST_P(Lag, LeavesAbsentJointsAbsent) {
   EXPECT_TRUE(made.frames[4].bodies[0].joints[kElbow]);
 }
 
-TEST_P(Lag, KeepsBonesAndTurnsThemAlong) {
+TEST_P(Lag, KeepsBoneLengthsAndUpdatesOrientations) {
   std::mt19937_64 rng(5);
   std::normal_distribution<double> noise_m(0.0, 0.01);
   const auto seen = HandGoing(30, [&](int) { return noise_m(rng); });

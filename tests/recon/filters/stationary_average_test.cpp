@@ -25,7 +25,7 @@ class NoisyJoint {
   std::normal_distribution<double> noise_;
 };
 
-TEST(StationaryAverage, AveragesWhatDoesNotMove) {
+TEST(StationaryAverage, AveragesRestingJoints) {
   NoisyJoint joint(0.008);
   StationaryAverage average;
   double square_m2 = 0;
@@ -39,7 +39,7 @@ TEST(StationaryAverage, AveragesWhatDoesNotMove) {
   EXPECT_LT(std::sqrt(square_m2), 0.004);
 }
 
-TEST(StationaryAverage, LetsGoOfAStepInTheSameFrame) {
+TEST(StationaryAverage, ReleasesAStepInTheSameFrame) {
   constexpr double kNoise_m = 0.004, kStep_m = 0.05;
   NoisyJoint joint(kNoise_m);
   StationaryAverage average;
@@ -54,7 +54,7 @@ TEST(StationaryAverage, LetsGoOfAStepInTheSameFrame) {
 
 class StationaryRamp : public testing::TestWithParam<double> {};  // metres a second
 
-TEST_P(StationaryRamp, IsLetGoBeforeItIsNoticedAndThenDoesNotLag) {
+TEST_P(StationaryRamp, IsReleasedEarlyAndThenHasNoLag) {
   constexpr double kNoise_m = 0.004;
   NoisyJoint joint(kNoise_m);
   StationaryAverage average;
@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Speeds, StationaryRamp, testing::Values(0.1, 0.3, 1.0),
                            return "cm" + std::to_string(std::lround(100 * info.param));
                          });
 
-TEST(StationaryAverage, DriftsAlongWithASwayingPerson) {
+TEST(StationaryAverage, FollowsASwayingPerson) {
   // 2 cm to and fro in 10 seconds: never off by more than the noise of what is seen.
   constexpr double kNoise_m = 0.008;
   NoisyJoint joint(kNoise_m);
@@ -101,7 +101,7 @@ TrackedPosture HeadSeenAt(const Vector3d& p) {
   return seen;
 }
 
-TEST(StationaryPosture, StartsAnewAfterAGapAndKeepsStatesAsTheyAre) {
+TEST(StationaryPosture, RestartsAfterAGapAndKeepsStates) {
   NoisyJoint joint(0.008);
   StationaryPosture average;
   for (int i = 0; i < 40; ++i) average.Step(HeadSeenAt(joint.At(0)), i / 30.0);
@@ -114,7 +114,7 @@ TEST(StationaryPosture, StartsAnewAfterAGapAndKeepsStatesAsTheyAre) {
 }
 
 // Times of a logger, which repeat and run back by a few milliseconds.
-TEST(StationaryPosture, GoesOnWhereATimeRepeats) {
+TEST(StationaryPosture, ContinuesWhenATimeRepeats) {
   NoisyJoint joint(0.008);
   StationaryPosture average;
   for (int i = 0; i < 40; ++i) average.Step(HeadSeenAt(joint.At(0)), i / 30.0);

@@ -24,7 +24,7 @@ const BodyMesh& Shipped() {
   return mesh;
 }
 
-TEST(BodyMesh, ShippedOneIsASmallFileWithTheShippedSurface) {
+TEST(BodyMesh, ShippedMeshIsSmallAndFitsTheShippedSurface) {
   EXPECT_LT(std::filesystem::file_size(ShippedPath()), 300'000U);
   EXPECT_TRUE(BodyMesh::IsFile(ShippedPath()));
   EXPECT_GT(Shipped().vertices.size(), 1500U);
@@ -42,7 +42,7 @@ TEST(BodyMesh, IsReadAsWritten) {
   }
 }
 
-TEST(BodyMesh, OfAnotherSurfaceIsRefused) {
+TEST(BodyMesh, MeshOfAnotherSurfaceIsRefused) {
   BodySurface other = Surface();
   other.joint[3].mean_m.x() += 0.01;
   test::ExpectRefused([&] { BodyMesh::Load(ShippedPath(), other); },
@@ -50,7 +50,7 @@ TEST(BodyMesh, OfAnotherSurfaceIsRefused) {
 }
 
 // Wherever its payload is cut, the file is named.
-TEST(BodyMesh, CutShortIsRefused) {
+TEST(BodyMesh, TruncationIsRefused) {
   const test::TemporaryFolder folder;
   std::filesystem::copy_file(ShippedPath(), folder / "cut.ossamesh");
   for (const uintmax_t kept : {10U, 1000U, 50000U}) {
@@ -83,7 +83,7 @@ TEST(BodyMesh, LiesOnTheSurfaceInAnyPoseAndShape) {
   EXPECT_LT(away_m[away_m.size() * 95 / 100], 0.06);
 }
 
-TEST(SkinnedBody, StandsInATPoseWithThePersonsOwnBones) {
+TEST(SkinnedBody, RestsInATPoseWithThePersonsBones) {
   BoneLengths lengths_m = MeasureBoneLengths(PosedSurface(Surface()).Landmarks());
   for (double& length : lengths_m) length *= 0.8;  // a child
   lengths_m[Index(Joint::kElbowLeft)] *= 1.1;
@@ -99,7 +99,7 @@ TEST(SkinnedBody, StandsInATPoseWithThePersonsOwnBones) {
   EXPECT_GT(along(Joint::kAnkleLeft, Joint::kFootLeft).z(), 0.8);
 }
 
-TEST(SkinnedBody, SkinIsAroundItsJointsAndStandsOnTheGround) {
+TEST(SkinnedBody, SkinSurroundsItsJointsAndStandsOnTheGround) {
   const BoneLengths lengths_m = MeasureBoneLengths(PosedSurface(Surface()).Landmarks());
   const SkinnedBody body = BuildTPosedBody(Shipped(), ShapeVector::Zero(), lengths_m);
   double lowest = 1.0, highest = 0.0;

@@ -19,7 +19,7 @@ std::vector<std::byte> Payload(const std::filesystem::path& path) {
   return ReadContainer(path, {{'O', 'S', 'S', 'A', 'S', 'F', '0', '0'}, 1, "body surface"});
 }
 
-TEST(BodySurface, ShippedOneIsASmallFileOfAGrownPerson) {
+TEST(BodySurface, ShippedSurfaceIsSmallAndOfAnAdult) {
   const auto path = test::SourceFolder() / "tools/tracker/shipped" / kShippedSurface;
   EXPECT_LT(std::filesystem::file_size(path), 3'000'000U);
   EXPECT_NEAR(Surface().stature_mean_m, 1.65, 0.1);
@@ -38,7 +38,7 @@ TEST(BodySurface, IsReadAsWritten) {
 }
 
 // Wherever it is cut, the byte is named.
-TEST(BodySurface, RefusesAFileThatIsCutShort) {
+TEST(BodySurface, RefusesATruncatedFile) {
   const auto path = TemporaryFile();
   Surface().Save(path);
   const auto payload = Payload(path);
@@ -53,7 +53,7 @@ TEST(BodySurface, RefusesAFileThatIsCutShort) {
   std::filesystem::remove(path);
 }
 
-TEST(BodySurface, RefusesANumberThatIsNone) {
+TEST(BodySurface, RefusesNan) {
   const auto path = TemporaryFile();
   Surface().Save(path);
   auto payload = Payload(path);

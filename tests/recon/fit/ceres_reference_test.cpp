@@ -27,7 +27,7 @@ NormalEquations OwnEquations(const PosedSurface& posed, const SeenPerson& seen,
 }
 
 // Image to model, model to image and joints, for a body a few centimetres off.
-TEST(CeresReference, HasTheSameGradientAndMatrix) {
+TEST(CeresReference, HasTheSameGradientAndHessian) {
   constexpr double kTolerance = 1e-7;  // relative: normals are stored as floats, and no longer unit
   const SurfaceFitOptions options;
   for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -67,7 +67,7 @@ SurfacePose MinimiseFrom(SurfacePose pose, const SeenPerson& seen, const Surface
 // Five damped steps do not reach the minimum, but are within half a pixel (9 mm) of it, on images
 // of the model itself for which minimum and fit are both 9 to 15 mm from the truth. Compilers draw
 // a pose's random numbers in different orders: 1.0 to 2.3 mm with GCC's, 3.9 at most with clang's.
-TEST(CeresReference, EndsWhereTheFitDoes) {
+TEST(CeresReference, ConvergesToTheSameMinimum) {
   constexpr double kNear_m = 0.0045, kAsGood_m = 0.003;
   const SurfaceFitOptions options;
   SurfaceFitter fitter(Surface(), options);

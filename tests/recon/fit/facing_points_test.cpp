@@ -34,7 +34,7 @@ class FacingPointsTest : public testing::Test {
   FacingPoints facing_;
 };
 
-TEST_F(FacingPointsTest, FindsTheNearestOfAll) {
+TEST_F(FacingPointsTest, FindsTheNearestPoint) {
   ASSERT_GT(facing_.points().size(), 100U);
   SurfaceFitOptions options;
   options.adjacent_part_m = options.other_part_m;  // parts that touch are told apart below
@@ -51,7 +51,7 @@ TEST_F(FacingPointsTest, FindsTheNearestOfAll) {
 
 // A pixel of the left hand at the position of the right one: adjacent parts are preferred over
 // nearer ones.
-TEST_F(FacingPointsTest, PartsThatTouchComeFirst) {
+TEST_F(FacingPointsTest, PrefersAdjacentParts) {
   constexpr uint8_t kHand = 16, kWrist = 14, kOther = 17;
   SurfaceFitOptions options;
   options.adjacent_part_m = 0.0;
@@ -67,12 +67,12 @@ TEST_F(FacingPointsTest, PartsThatTouchComeFirst) {
   EXPECT_GT(tried, 0);
 }
 
-TEST(FacingPoints, WithoutAnyNothingIsNearest) {
+TEST(FacingPoints, NoPointsGiveNoNearest) {
   EXPECT_EQ(FacingPoints().Nearest({Eigen::Vector3d(0, 0, 2), 3, 1.0}, SurfaceFitOptions()), -1);
 }
 
 // Points beside the silhouette are assigned its nearest cell, up to one cell.
-TEST(SeenPerson, LeadsBackToTheSilhouetteByTheShortestWay) {
+TEST(SeenPerson, FindsTheNearestSilhouettePoint) {
   const SeenSurface seen(RandomPose(2));
   const SurfaceFitInput input = seen.Input(seen.joints_m);
   SeenPerson person;

@@ -16,7 +16,7 @@ PosedSurface PosedAt(const SurfacePose& pose) {
 
 // The gradient of one residual of weight 1 and value 1 is its derivative by every unknown: against
 // central differences of the place itself, moved by steps of 1e-5 rad, m and standard deviations.
-TEST(NormalEquations, DerivativeOfAPlaceIsThatOfItsMotion) {
+TEST(NormalEquations, DerivativeOfAPositionEqualsFiniteDifferences) {
   constexpr double kStep = 1e-5, kTolerance = 1e-7;  // of second order in the step
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const PosedSurface posed = PosedAt(RandomPose(seed));
@@ -42,7 +42,7 @@ TEST(NormalEquations, DerivativeOfAPlaceIsThatOfItsMotion) {
 }
 
 // A residual's square has the outer product of its derivative as matrix.
-TEST(NormalEquations, MatrixIsTheOuterProductOfTheDerivative) {
+TEST(NormalEquations, HessianIsTheOuterProductOfTheJacobian) {
   const PosedSurface posed = PosedAt(RandomPose(4));
   const size_t i = posed.at_m().size() - 1;
   const SurfacePoint& point = Surface().points[i];
@@ -62,7 +62,7 @@ TEST(NormalEquations, MatrixIsTheOuterProductOfTheDerivative) {
 }
 
 // Three rows fix a place: the step takes it there, to first order.
-TEST(NormalEquations, StepTakesAPlaceWhereItIsWanted) {
+TEST(NormalEquations, StepMovesAPositionToItsTarget) {
   const PosedSurface posed = PosedAt(RandomPose(6));
   const size_t i = 17;
   const SurfacePoint& point = Surface().points[i];
@@ -100,7 +100,7 @@ NormalEquations EquationsOf(const PosedSurface& posed) {
 }
 
 // Against the dense inverse and the derivative by differences.
-TEST(NormalEquations, CovarianceOfAPlaceIsThatOfItsUnknowns) {
+TEST(NormalEquations, CovarianceOfAPositionFollowsFromTheUnknowns) {
   const PosedSurface posed = PosedAt(RandomPose(8));
   NormalEquations equations = EquationsOf(posed);
   const NormalEquations::Matrix inverse =
@@ -123,7 +123,7 @@ TEST(NormalEquations, CovarianceOfAPlaceIsThatOfItsUnknowns) {
 }
 
 // The inverse of shape's block of the inverse; and the step of shape is that of the whole system.
-TEST(NormalEquations, InformationOfShapeHasThePoseIntegratedOut) {
+TEST(NormalEquations, InformationOfTheShapeIsMarginal) {
   const PosedSurface posed = PosedAt(RandomPose(8));
   NormalEquations equations = EquationsOf(posed);
   const NormalEquations::Matrix inverse =

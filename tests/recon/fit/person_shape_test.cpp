@@ -32,14 +32,14 @@ PersonShape ToldBy(const ShapeVector& shape, int frames, PersonShape person = {}
 
 ShapeVector SomeShape() { return RandomPose(5).shape; }
 
-TEST(PersonShape, OfManyFramesIsNearerThanThatOfOne) {
+TEST(PersonShape, ImprovesWithMoreFrames) {
   const PersonShape one = ToldBy(SomeShape(), 1), many = ToldBy(SomeShape(), 8);
   EXPECT_LT((many.Likeliest() - SomeShape()).norm(), (one.Likeliest() - SomeShape()).norm());
   EXPECT_EQ(many.frames, 8);
 }
 
 // Images of the model itself: stature is within its error bars.
-TEST(PersonShape, TellsStatureWithinItsErrorBars) {
+TEST(PersonShape, StatureIsWithinItsStandardDeviations) {
   for (const double tall : {-1.5, 0.0, 1.5}) {
     const ShapeVector shape = tall * Surface().stature_by_shape_m.normalized();
     const Stature said = MeasureStature(ToldBy(shape, 6), Surface());
@@ -48,14 +48,14 @@ TEST(PersonShape, TellsStatureWithinItsErrorBars) {
   }
 }
 
-TEST(PersonShape, OfNobodyIsTheMeanBodyAndAsUnsureAsPeopleDiffer) {
+TEST(PersonShape, StartsWithThePriorOfThePopulation) {
   const Stature said = MeasureStature({}, Surface());
   EXPECT_EQ(said.stature_m, Surface().stature_mean_m);
   EXPECT_GE(said.sigma_m, Surface().stature_by_shape_m.norm());
 }
 
 // A frame without legs does not reduce the uncertainty of their length.
-TEST(PersonShape, LearnsNothingFromAFrameThatTellsNothing) {
+TEST(PersonShape, FrameWithoutInformationChangesNothing) {
   PersonShape person = ToldBy(SomeShape(), 3);
   const PersonShape before = person;
   SurfaceFit blind;
@@ -64,7 +64,7 @@ TEST(PersonShape, LearnsNothingFromAFrameThatTellsNothing) {
   EXPECT_LT((person.Likeliest() - before.Likeliest()).norm(), 1e-9);
 }
 
-TEST(PersonShape, DoesNotTakeAFitThatExplainsNothing) {
+TEST(PersonShape, IgnoresPoorFits) {
   PersonShape person = ToldBy(SomeShape(), 1);
   SurfaceFit poor;
   poor.score = -0.2;
@@ -72,7 +72,7 @@ TEST(PersonShape, DoesNotTakeAFitThatExplainsNothing) {
   EXPECT_EQ(person.frames, 1);
 }
 
-TEST(PersonFile, IsReadAsWrittenAndGoesOn) {
+TEST(PersonFile, IsReadAsWrittenAndCanBeUpdated) {
   const auto path = TemporaryFile();
   const PersonShape person = ToldBy(SomeShape(), 3);
   person.Save(path, Surface());
@@ -92,7 +92,7 @@ void ExpectRefused(const std::function<void()>& read, const std::string& text) {
   }
 }
 
-TEST(PersonFile, OfAnotherBodyIsRefused) {
+TEST(PersonFile, FileOfAnotherBodyIsRefused) {
   const auto path = TemporaryFile();
   PersonShape().Save(path, Surface());
   BodySurface other = Surface();
@@ -109,7 +109,7 @@ std::vector<std::byte> PayloadOf(const PersonShape& person) {
   return payload;
 }
 
-TEST(PersonFile, CutShortIsRefusedWhereverItIsCut) {
+TEST(PersonFile, EveryTruncationIsRefused) {
   const auto payload = PayloadOf({});
   for (const size_t kept : {size_t{0}, size_t{50}, payload.size() / 2, payload.size() - 1}) {
     ExpectRefused(
@@ -118,14 +118,14 @@ TEST(PersonFile, CutShortIsRefusedWhereverItIsCut) {
   }
 }
 
-TEST(PersonFile, OfWhatNoCovarianceIsIsRefused) {
+TEST(PersonFile, InvalidCovarianceIsRefused) {
   PersonShape person;
   person.information(2, 2) = -5.0;
   const auto payload = PayloadOf(person);
   ExpectRefused([&] { PersonShape::FromBytes(payload, "p.ossaperson", Surface()); }, "information");
 }
 
-TEST(PersonFile, OfAShapeThatNobodyHasIsRefused) {
+TEST(PersonFile, ImplausibleShapeIsRefused) {
   PersonShape person;
   person.shape[3] = std::nan("");
   const auto payload = PayloadOf(person);

@@ -36,7 +36,7 @@ void ExpectPoorButHarmless(const SurfaceFit& fit, double most_score) {
 }
 
 // Images of the model itself: final joint errors are less than a third of the initial ones.
-TEST(SurfaceFit, FindsTheBodyFromDisturbedJoints) {
+TEST(SurfaceFit, ConvergesFromDisturbedJoints) {
   SurfaceFitter fitter(Surface());
   double before_m = 0.0, after_m = 0.0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
@@ -51,7 +51,7 @@ TEST(SurfaceFit, FindsTheBodyFromDisturbedJoints) {
   EXPECT_LT(after_m, 0.45 * before_m);
 }
 
-TEST(SurfaceFit, OfAJointThatNothingIsKnownOfIsWhereTheSurfaceIs) {
+TEST(SurfaceFit, PlacesUnknownJointsByTheSurface) {
   const SeenSurface seen(RandomPose(3));
   Posture start_m = seen.joints_m;
   start_m[Joint::kHandLeft] += Eigen::Vector3d(0.3, 0.2, 0.0);
@@ -70,7 +70,7 @@ double ShareOfStart(const SurfaceFit& fit, const Posture& start_m, size_t joint)
          (start_m.position_m[joint] - fitted_m).norm();
 }
 
-TEST(SurfaceFit, BlendsMoreOfTheStartTheSurerThatIs) {
+TEST(SurfaceFit, TrustsAMoreCertainStartMore) {
   const SeenSurface seen(RandomPose(3));
   const Posture start_m = Disturbed(seen.joints_m, 0.05, 3);
   SurfaceFitInput input = seen.Input(start_m);
@@ -88,7 +88,7 @@ TEST(SurfaceFit, BlendsMoreOfTheStartTheSurerThatIs) {
   EXPECT_EQ(fit->blended_m[Joint::kHead], fit->joints_m[Joint::kHead]);
 }
 
-TEST(SurfaceFit, BlendsLessOfAStartThatNoBodyHas) {
+TEST(SurfaceFit, TrustsAnImplausibleStartLess) {
   const SeenSurface seen(RandomPose(3));
   SurfaceFitter fitter(Surface());
   const auto share = [&](double off_m) {
@@ -100,14 +100,14 @@ TEST(SurfaceFit, BlendsLessOfAStartThatNoBodyHas) {
   EXPECT_GT(share(0.01), share(0.06) + 0.1);
 }
 
-TEST(SurfaceFit, IsNoneWhereTheCameraIsNotFinite) {
+TEST(SurfaceFit, IsEmptyIfTheCameraIsNotFinite) {
   SeenSurface seen(RandomPose(1));
   seen.frame.camera.fx = std::nan("");
   SurfaceFitter fitter(Surface());
   EXPECT_FALSE(fitter.Fit(seen.Input(seen.joints_m)));
 }
 
-TEST(SurfaceFit, IsTheSameWhateverWasFittedBefore) {
+TEST(SurfaceFit, IsIndependentOfEarlierFits) {
   const SeenSurface first(RandomPose(1)), second(RandomPose(2));
   SurfaceFitter fresh(Surface()), used(Surface());
   used.Fit(second.Input(second.joints_m));
@@ -118,7 +118,7 @@ TEST(SurfaceFit, IsTheSameWhateverWasFittedBefore) {
   }
 }
 
-TEST(SurfaceFit, KeepsTheShapeThatManyFramesAgreedOn) {
+TEST(SurfaceFit, KeepsAWellKnownShape) {
   const SurfacePose pose = RandomPose(5);
   const SeenSurface seen(pose);
   SurfaceFitInput input = seen.Input(Disturbed(seen.joints_m, 0.03, 5));
@@ -131,7 +131,7 @@ TEST(SurfaceFit, KeepsTheShapeThatManyFramesAgreedOn) {
   EXPECT_LT((known->pose.shape - pose.shape).norm(), (alone->pose.shape - pose.shape).norm());
 }
 
-TEST(SurfaceFit, IsNoneOfTenPixels) {
+TEST(SurfaceFit, IsEmptyForTenPixels) {
   const SeenSurface seen(RandomPose(1));
   SurfaceFitInput input = seen.Input(seen.joints_m);
   input.pixels = input.pixels.first(10);
@@ -141,7 +141,7 @@ TEST(SurfaceFit, IsNoneOfTenPixels) {
   EXPECT_FALSE(fitter.Fit(input));
 }
 
-TEST(SurfaceFit, IsNoneWhereAJointIsNotFinite) {
+TEST(SurfaceFit, IsEmptyIfAJointIsNotFinite) {
   const SeenSurface seen(RandomPose(1));
   SurfaceFitInput input = seen.Input(seen.joints_m);
   input.joints_m[Joint::kHead].x() = std::nan("");
@@ -149,7 +149,7 @@ TEST(SurfaceFit, IsNoneWhereAJointIsNotFinite) {
   EXPECT_FALSE(fitter.Fit(input));
 }
 
-TEST(SurfaceFit, OfAWallTakenForAPersonIsPoorButHarmless) {
+TEST(SurfaceFit, WallGivesAPoorButFiniteFit) {
   SeenSurface seen(RandomPose(1));
   seen.pixels.clear();
   seen.parts.clear();
@@ -162,7 +162,7 @@ TEST(SurfaceFit, OfAWallTakenForAPersonIsPoorButHarmless) {
   EXPECT_GT(SaidError_m(*fit), SaidError_m(UsualFit()));
 }
 
-TEST(SurfaceFit, OfTwoPeopleInOneMaskIsPoorButHarmless) {
+TEST(SurfaceFit, TwoPeopleInOneMaskGiveAPoorButFiniteFit) {
   SurfacePose left = RandomPose(1), right = RandomPose(2);
   left.pelvis_m.x() = 0.5;
   right.pelvis_m.x() = -0.5;
@@ -182,14 +182,14 @@ TEST(SurfaceFit, OfTwoPeopleInOneMaskIsPoorButHarmless) {
   ExpectPoorButHarmless(*fit, 0.9);
 }
 
-TEST(SurfaceFit, RefusesAPixelThatTheImageDoesNotHave) {
+TEST(SurfaceFit, RefusesPixelsOutsideTheImage) {
   SeenSurface seen(RandomPose(1));
   seen.pixels.back() = 320 * 240;
   SurfaceFitter fitter(Surface());
   EXPECT_THROW(fitter.Fit(seen.Input(seen.joints_m)), std::invalid_argument);
 }
 
-TEST(SurfaceFitOptions, NamesWhatIsOutOfRange) {
+TEST(SurfaceFitOptions, OutOfRangeValuesAreRefusedByName) {
   SurfaceFitOptions options;
   options.pixel_m = 0.0;
   try {

@@ -40,7 +40,7 @@ std::string SaidOf(const SkeletonSequence& a, const SkeletonSequence& b) {
   return "";
 }
 
-TEST(RigidAlignment, IsExactOfThreePointsAndLeavesTheirOwnDistances) {
+TEST(RigidAlignment, IsExactForThreePoints) {
   RigidAlignment alignment;
   const Eigen::Isometry3d truth = FromTheSide();
   for (const Eigen::Vector3d& point_m :
@@ -52,7 +52,7 @@ TEST(RigidAlignment, IsExactOfThreePointsAndLeavesTheirOwnDistances) {
   EXPECT_NEAR(found.mean_square_m2, 0.0, 1e-12);
 }
 
-TEST(RigidAlignment, IsARotationOfPointsThatAMirrorWouldFit) {
+TEST(RigidAlignment, NeverReflects) {
   RigidAlignment alignment;
   for (const Eigen::Vector3d& point_m : {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(1, 0, 2),
                                          Eigen::Vector3d(0, 1, 3), Eigen::Vector3d(1, 2, 1)}) {
@@ -80,7 +80,7 @@ TEST(EstimateCamera, FindsTwoPeopleWhoseIdsAreSwapped) {
   ExpectFound(found, side, 0.02, 1.0, kFrame_s);
 }
 
-TEST(EstimateCamera, FindsTheOnePersonWhomBothSee) {
+TEST(EstimateCamera, FindsTheOnlyPersonSeenByBoth) {
   const MadeUpCamera side{FromTheSide(), 0.2, 0.02, 3};
   const std::vector<double> others = {9.0, 0.0};
   const auto found =
@@ -88,7 +88,7 @@ TEST(EstimateCamera, FindsTheOnePersonWhomBothSee) {
   ExpectFound(found, side, 0.02, 1.0, kFrame_s);
 }
 
-TEST(EstimateCamera, FindsClocksThatBeganElsewhere) {
+TEST(EstimateCamera, FindsLargeClockOffsets) {
   MadeUpCamera side{FromTheSide(), 0.3, 0.01, 3};
   auto second = Record(side, kOne, 150);
   for (auto& frame : second.frames) frame.time_s += 1.6e9;  // since 1970
@@ -97,7 +97,7 @@ TEST(EstimateCamera, FindsClocksThatBeganElsewhere) {
   ExpectFound(found, side, 0.02, 1.0, kFrame_s);
 }
 
-TEST(EstimateCamera, IsNotMovedByAnArmThatOneCameraHasWrong) {
+TEST(EstimateCamera, IsRobustAgainstAWrongArm) {
   const MadeUpCamera side{FromTheSide(), 0.1, 0.01, 3};
   auto second = Record(side, kOne, 150);
   for (auto& frame : second.frames) {
@@ -108,7 +108,7 @@ TEST(EstimateCamera, IsNotMovedByAnArmThatOneCameraHasWrong) {
   ExpectFound(EstimateCamera(Record({}, kOne, 150), second), side, 0.02, 1.0, kFrame_s);
 }
 
-TEST(EstimateCamera, RefusesWhatItCannotTell) {
+TEST(EstimateCamera, RefusesAmbiguousMotion) {
   const auto moving = Record({}, kOne, 150);
   auto nobody = moving;
   nobody.source = "B.jsonl";

@@ -80,7 +80,7 @@ TEST_F(ExtrinsicsFile, RefusesOneDamagedField) {
   }
 }
 
-TEST_F(ExtrinsicsFile, RefusesAFileThatIsNotThereAndOneOfBrackets) {
+TEST_F(ExtrinsicsFile, RefusesAMissingFileAndOneOfBracketsOnly) {
   EXPECT_THROW(ReadExtrinsics(folder_ / "none.json"), InputError);
   std::ofstream(file_) << std::string(1000, '[');
   EXPECT_THROW(ReadExtrinsics(file_), InputError);
@@ -100,13 +100,13 @@ TEST(Extrinsics, OfNamedCamerasAreRelativeToTheFirstNamed) {
   EXPECT_EQ(selected[1].clock_offset_s, -0.125 - 0.5);
 }
 
-TEST(Extrinsics, OfOtherNamesAreTakenInOrderIfTheyAreAsMany) {
+TEST(Extrinsics, UnknownNamesAreMatchedInOrderIfTheNumbersAgree) {
   const std::vector<std::string> two = {"a", "b"}, three = {"a", "b", "c"};
   EXPECT_EQ(SelectCameras(TwoCameras(), two, "room.json")[1].name, "side \"2\"");
   EXPECT_THROW(SelectCameras(TwoCameras(), three, "room.json"), InputError);
 }
 
-TEST(Extrinsics, ARecordingNamedAsACameraIsNotTakenForAnother) {
+TEST(Extrinsics, RecordingNamedLikeACameraGetsThatCamera) {
   const std::vector<std::string> swapped = {"side \"2\"", "b"}, in_order = {"front", "b"};
   EXPECT_EQ(SelectCameras(TwoCameras(), in_order, "room.json")[1].name, "side \"2\"");
   try {
@@ -118,7 +118,7 @@ TEST(Extrinsics, ARecordingNamedAsACameraIsNotTakenForAnother) {
   }
 }
 
-TEST(Extrinsics, NamesAreStemsOfFilesAndFolders) {
+TEST(Extrinsics, CameraNamesAreStemsOfFilesAndFolders) {
   const std::vector<std::string> different = {"clip/camera_0/", "b.jsonl"};
   EXPECT_EQ(CameraNames(different), (std::vector<std::string>{"camera_0", "b"}));
   const std::vector<std::string> alike = {"left/me.jsonl", "right/me.jsonl"};

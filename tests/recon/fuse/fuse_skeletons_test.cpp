@@ -56,7 +56,7 @@ void MoveHand(SkeletonSequence& sequence, const Eigen::Vector3d& by_m, TrackingS
   }
 }
 
-TEST(FuseSkeletons, IsTheTruthAtTheFirstCamerasTimesWhateverTheOthersClock) {
+TEST(FuseSkeletons, InterpolatesToTheFirstCamerasTimesForAnyClock) {
   auto front = Record({}, kOnePerson, 60);
   front.frames.erase(front.frames.begin() + 20, front.frames.begin() + 25);
   for (auto& frame : front.frames) frame.floor = Eigen::Vector4d(0, 1, 0, 0.9);
@@ -71,7 +71,7 @@ TEST(FuseSkeletons, IsTheTruthAtTheFirstCamerasTimesWhateverTheOthersClock) {
   EXPECT_LT(RootMeanSquare_m(fused), 1e-3);
 }
 
-TEST(FuseSkeletons, HalvesTheVarianceOfTwoCamerasThatErrAlike) {
+TEST(FuseSkeletons, HalvesTheVarianceOfTwoEqualCameras) {
   FuseOptions options;
   options.keep_bones = false;
   const auto front = Record({.noise_m = 0.02, .seed = 5}, kOnePerson, 200);
@@ -81,7 +81,7 @@ TEST(FuseSkeletons, HalvesTheVarianceOfTwoCamerasThatErrAlike) {
               0.05);
 }
 
-TEST(FuseSkeletons, BelievesTheCameraThatLooksAcross) {
+TEST(FuseSkeletons, TrustsTheCameraThatSeesTheDirectionSideways) {
   // One joint, off along camera 0's ray; the side camera, square to it, has it right.
   SkeletonSequence front{"front", {SkeletonFrame{}}}, side = front;
   const Eigen::Vector3d truth_m(0.0, 0.0, 3.0), off_m(0.0, 0.0, 0.08);
@@ -100,7 +100,7 @@ TEST(FuseSkeletons, BelievesTheCameraThatLooksAcross) {
   EXPECT_NEAR((PlaceOf(fused.frames[0], 0, kHand) - truth_m).z(), 0.08 * 4.0 / 13.0, 1e-6);
 }
 
-TEST(FuseSkeletons, UsesStandardDeviationsOfTheFileInTheirCamerasAxes) {
+TEST(FuseSkeletons, UsesStandardDeviationsInTheirCamerasAxes) {
   auto front = Record({}, kOnePerson, 2), side = Record({FromTheSide()}, kOnePerson, 2);
   for (auto& frame : front.frames) {
     for (auto& joint : frame.bodies[0].joints) {
@@ -117,7 +117,7 @@ TEST(FuseSkeletons, UsesStandardDeviationsOfTheFileInTheirCamerasAxes) {
   EXPECT_NEAR(fused.frames[0].bodies[0].joints[kHand]->sigma_m->x(), 0.01, 1e-4);
 }
 
-TEST(FuseSkeletons, TakesAJointThatTheFirstCameraOnlyInfersFromTheSecond) {
+TEST(FuseSkeletons, PrefersTrackedJointsOverInferredOnes) {
   auto front = Record({}, kOnePerson, 30);
   MoveHand(front, {0.1, 0.05, 0.0}, TrackingState::kInferred, 0.9);
   const auto fused = Fused(front, Record({FromTheSide()}, kOnePerson, 30));
@@ -125,13 +125,13 @@ TEST(FuseSkeletons, TakesAJointThatTheFirstCameraOnlyInfersFromTheSecond) {
   EXPECT_EQ(fused.frames[3].bodies[0].joints[kHand]->state, TrackingState::kTracked);
 }
 
-TEST(FuseSkeletons, OfTrackedJointsFarApartTakesTheMoreConfident) {
+TEST(FuseSkeletons, TakesTheMoreConfidentOfDistantTrackedJoints) {
   auto front = Record({}, kOnePerson, 30);
   MoveHand(front, {0.5, 0.0, 0.0}, TrackingState::kTracked, 0.4);
   EXPECT_LT(RootMeanSquare_m(Fused(front, Record({FromTheSide()}, kOnePerson, 30))), 1e-6);
 }
 
-TEST(FuseSkeletons, DoesNotJumpToALimbThatACameraTakesForAnotherForAWhile) {
+TEST(FuseSkeletons, IgnoresALimbThatOneCameraConfusesForAWhile) {
   auto front = Record({}, kOnePerson, 60), side = Record({FromTheSide()}, kOnePerson, 60);
   MoveHand(front, {0.0, 0.0, 0.0}, TrackingState::kTracked, 0.6);
   MoveHand(side, {0.0, 0.0, 0.0}, TrackingState::kTracked, 0.6);
@@ -142,7 +142,7 @@ TEST(FuseSkeletons, DoesNotJumpToALimbThatACameraTakesForAnotherForAWhile) {
   EXPECT_LT(RootMeanSquare_m(Fused(front, side)), 1e-6);
 }
 
-TEST(FuseSkeletons, OfThreeCamerasBelievesTheTwoThatAgree) {
+TEST(FuseSkeletons, FollowsTheTwoAgreeingCamerasOfThree) {
   auto front = Record({}, kOnePerson, 10);
   MoveHand(front, {0.5, 0.0, 0.0}, TrackingState::kTracked, 1.0);
   auto side = Record({FromTheSide()}, kOnePerson, 10);
@@ -153,7 +153,7 @@ TEST(FuseSkeletons, OfThreeCamerasBelievesTheTwoThatAgree) {
   EXPECT_LT(RootMeanSquare_m(FuseSkeletons(three, cameras)), 1e-6);
 }
 
-TEST(FuseSkeletons, KeepsPeopleWhomOneCameraSees) {
+TEST(FuseSkeletons, KeepsPeopleSeenByOneCamera) {
   const std::vector<double> other = {4.0};
   const auto fused = Fused(Record({}, kOnePerson, 30), Record({FromTheSide()}, other, 30));
   for (const SkeletonFrame& frame : fused.frames) {
@@ -165,7 +165,7 @@ TEST(FuseSkeletons, KeepsPeopleWhomOneCameraSees) {
   }
 }
 
-TEST(FuseSkeletons, KeepsAnIdWhileEitherCameraLosesItsOwn) {
+TEST(FuseSkeletons, KeepsAnIdWhileOneCameraLosesThePerson) {
   auto front = Record({}, kTwoPeople, 90), side = Record({FromTheSide()}, kTwoPeople, 90);
   for (auto& frame : side.frames) std::swap(frame.bodies[0].id, frame.bodies[1].id);
   for (size_t f = 30; f < 90; ++f) front.frames[f].bodies[0].id = 7;  // found again as another
@@ -191,7 +191,7 @@ void LosePlaces(SkeletonSequence& sequence, size_t begin, size_t end) {
   }
 }
 
-TEST(FuseSkeletons, TakesABodyWithoutAPlaceForNobody) {
+TEST(FuseSkeletons, IgnoresBodiesWithoutPosition) {
   for (const bool first_loses : {true, false}) {
     auto front = Record({}, kOnePerson, 60), side = Record({FromTheSide()}, kOnePerson, 60);
     LosePlaces(first_loses ? front : side, 20, 40);
@@ -204,7 +204,7 @@ TEST(FuseSkeletons, TakesABodyWithoutAPlaceForNobody) {
   }
 }
 
-TEST(FuseSkeletons, WarnsOfARecordingOfOtherTimes) {
+TEST(FuseSkeletons, WarnsOfARecordingWithoutCommonTimes) {
   const auto front = Record({}, kOnePerson, 30, "front.jsonl");
   const auto side = Record({FromTheSide()}, kOnePerson, 30, "side.jsonl");
   EXPECT_TRUE(Fused(front, side, 0.5).warnings.empty());
@@ -214,7 +214,7 @@ TEST(FuseSkeletons, WarnsOfARecordingOfOtherTimes) {
       << apart.warnings[0];
 }
 
-TEST(FuseSkeletons, TakesNothingFromACameraThatSawNobodyAroundTheTime) {
+TEST(FuseSkeletons, IgnoresCamerasThatSeeNobodyAtTheTime) {
   auto side = Record({FromTheSide()}, kOnePerson, 60);
   for (size_t f = 20; f < 40; ++f) side.frames[f].bodies.clear();
   auto front = Record({}, kOnePerson, 60);
@@ -232,7 +232,7 @@ TEST(FuseSkeletons, TakesNothingFromACameraThatSawNobodyAroundTheTime) {
   EXPECT_LT(hand_off(40), 1e-9);
 }
 
-TEST(FuseSkeletons, GoesByEachRecordingsOwnFrames) {
+TEST(FuseSkeletons, UsesEachRecordingsOwnFrames) {
   auto front = Record({}, kOnePerson, 30), side = Record({FromTheSide()}, kOnePerson, 30);
   std::erase_if(side.frames, [](const SkeletonFrame& frame) { return frame.frame % 5 != 0; });
   MoveHand(front, {0.09, 0.0, 0.0}, TrackingState::kInferred, 0.9);
@@ -250,7 +250,7 @@ TEST(FuseSkeletons, KeepsBoneLengths) {
   for (size_t j = 1; j < kJointCount; ++j) EXPECT_NEAR(first[j], last[j], 1e-6);
 }
 
-TEST(FuseSkeletons, OfOneRecordingIsThatOne) {
+TEST(FuseSkeletons, OneRecordingStaysUnchanged) {
   const std::vector<SkeletonSequence> one = {Record({.noise_m = 0.02}, kOnePerson, 5)};
   const auto fused = FuseSkeletons(one, {{.name = "front"}});
   EXPECT_EQ(PlaceOf(fused.frames[3], 0, kHand), PlaceOf(one[0].frames[3], 0, kHand));

@@ -72,7 +72,7 @@ TEST(Best, KeepsThePostureWhileAllJointsAreMissing) {
   }
 }
 
-TEST(Best, TakesNanForMissing) {
+TEST(Best, TreatsNanAsMissing) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
@@ -85,7 +85,7 @@ TEST(Best, TakesNanForMissing) {
 }
 
 // One guess with a NaN confidence must not corrupt a filter permanently.
-TEST(Best, TakesAConfidenceThatIsNoNumberForNone) {
+TEST(Best, TreatsANanConfidenceAsZero) {
   const auto method = MakeBestOne();
   double t = SeenWell(*method);
   TrackedPosture guess = test::AllTracked(At(t));
@@ -100,7 +100,7 @@ TEST(Best, TakesAConfidenceThatIsNoNumberForNone) {
   EXPECT_LT(test::MeanDistance_m(made.posture, At(t)), 0.01);
 }
 
-TEST(Best, FollowsAGuessLittleThatNoDepthImageWasHeldAgainst) {
+TEST(Best, TrustsUnrefinedGuessesLittle) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
@@ -113,7 +113,7 @@ TEST(Best, FollowsAGuessLittleThatNoDepthImageWasHeldAgainst) {
 }
 
 // Joints behind a wall are invisible, but cascaded refinement was trained to place them.
-TEST(Best, BelievesACloseLookBehindWhatHides) {
+TEST(Best, TrustsARefinedJointBehindAnOccluder) {
   depth::DepthFrame wall;
   wall.camera = depth::KinectV1Camera(320, 240);
   wall.depth_mm.assign(320 * 240, 1000);
@@ -137,7 +137,7 @@ TEST(Best, BelievesACloseLookBehindWhatHides) {
   EXPECT_GT(off_m(false), 0.06);
 }
 
-TEST(Best, MovesTheTrunkLittleAfterACloseLook) {
+TEST(Best, MovesARefinedTrunkLittle) {
   const auto moved_m = [](bool looked) {
     const auto method = MakeBestOne(looked);
     const double t = SeenWell(*method);
@@ -151,7 +151,7 @@ TEST(Best, MovesTheTrunkLittleAfterACloseLook) {
   EXPECT_LT(moved_m(true), 0.8 * moved_m(false));
 }
 
-TEST(Best, DoesNotCollapseWithBonesOfNoLength) {
+TEST(Best, StaysFiniteWithBonesOfLengthZero) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
@@ -170,7 +170,7 @@ TEST(Best, FollowsChildrenAndTallPeople) {
   }
 }
 
-TEST(Best, FollowsThroughJumpsOfTheFrameRate) {
+TEST(Best, FollowsAtAVaryingFrameRate) {
   const auto method = MakeBestOne();
   double t = SeenWell(*method);
   for (const double step_s : {0.1, 0.005, 0.2, 1.0 / 60, 1.0 / 15, 1.0 / 120, 0.1}) {
@@ -181,7 +181,7 @@ TEST(Best, FollowsThroughJumpsOfTheFrameRate) {
   }
 }
 
-TEST(Best, StartsAnewAfterAGapOfSeconds) {
+TEST(Best, RestartsAfterAGapOfSeconds) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method) + 7.0;
   const auto made = StepOn(*method, test::AllTracked(At(t)), t);
@@ -189,7 +189,7 @@ TEST(Best, StartsAnewAfterAGapOfSeconds) {
   EXPECT_FALSE(method->Revised().has_value());  // nothing is known between
 }
 
-TEST(Best, UndoesSidesThatAreExchanged) {
+TEST(Best, CorrectsExchangedSides) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
@@ -201,7 +201,7 @@ TEST(Best, UndoesSidesThatAreExchanged) {
   EXPECT_LE(LargestReliability(made), 0.5);
 }
 
-TEST(Best, BelievesSidesThatStayExchanged) {
+TEST(Best, AcceptsSidesThatStayExchanged) {
   const auto method = MakeBestOne();
   double t = SeenWell(*method);
   Posture turned;
@@ -215,7 +215,7 @@ TEST(Best, BelievesSidesThatStayExchanged) {
   EXPECT_LT(test::MeanDistance_m(made.posture, turned), 0.05);
 }
 
-TEST(Best, MakesAHiddenLegUpFromTheOtherAndLeavesWhatIsSeen) {
+TEST(Best, EstimatesAHiddenLegFromTheOtherAndKeepsVisibleJoints) {
   const auto method = MakeBestByDatabase();
   double t = SeenWell(*method);
   double hidden_m = 0.0, seen_m = 0.0;
@@ -248,7 +248,7 @@ double HiddenError_m(const std::vector<Joint>& hidden, Joint measured) {
   return sum_m / kFrames;
 }
 
-TEST(Best, AHiddenArmReachesForTheHandThatIsSeen) {
+TEST(Best, AHiddenArmReachesTheVisibleHand) {
   // What lies between shoulder and hand: the hand tells more of the elbow than the rest of the
   // body.
   const std::vector<Joint> arm = {Joint::kElbowLeft, Joint::kWristLeft};
@@ -263,7 +263,7 @@ TEST(Best, AHiddenAnkleDoesNotLieOnTheLineFromKneeToFoot) {
   EXPECT_LT(HiddenError_m({Joint::kAnkleLeft}, Joint::kAnkleLeft), 0.05);
 }
 
-TEST(Best, DoesNotJumpToAnotherBodyAndBack) {
+TEST(Best, IgnoresAJumpToAnotherBodyAndBack) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
   TrackedPosture other = test::AllTracked(At(t, 0.6));
@@ -290,7 +290,7 @@ TEST(Best, HoldsAHandThatSnapsToTheOther) {
 }
 
 // The forearm keeps its length and is far from the other hand: only its speed is implausible.
-TEST(Best, DoubtsAndHoldsAForearmThatIsElsewhereForOneFrame) {
+TEST(Best, HoldsAForearmThatIsElsewhereForOneFrame) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
   TrackedPosture observed = test::AllTracked(At(t));
@@ -305,7 +305,7 @@ TEST(Best, DoubtsAndHoldsAForearmThatIsElsewhereForOneFrame) {
   EXPECT_LT(off_m, 0.3 * (observed.posture.position_m[7] - At(t).position_m[7]).norm());
 }
 
-TEST(Best, AnElbowIsNotPulledAlongByAForearmSeenTooLong) {
+TEST(Best, ATooLongForearmDoesNotMoveTheElbow) {
   const auto method = MakeBestOne();
   const double t = SeenWell(*method);
   const auto elbow = Index(Joint::kElbowLeft);
@@ -321,7 +321,7 @@ TEST(Best, AnElbowIsNotPulledAlongByAForearmSeenTooLong) {
   EXPECT_LT(elbow_m, 0.3 * kTooLong_m);
 }
 
-TEST(Best, ThinksBetterOfAFrameWhenItHasSeenTheNext) {
+TEST(Best, RevisesAFrameOnceTheNextIsKnown) {
   const auto method = MakeBestOne();
   std::mt19937_64 rng(3);
   double now_m = 0.0, revised_m = 0.0;
@@ -354,7 +354,7 @@ TEST(WithBoneLengths, GivesExactLengthsAndMovesLessThanRetargeting) {
   }
 }
 
-TEST(WithBoneLengths, HeavyJointsStayWhereTheyAre) {
+TEST(WithBoneLengths, MovesHeavyJointsLeast) {
   Posture posture = test::Motion(0.0);
   BoneLengths wanted = StandardBoneLengths();
   wanted[5] *= 1.1;
@@ -385,14 +385,14 @@ std::pair<double, double> ErrorsOf(double noise_m) {
   return {before, after};
 }
 
-TEST(LagFilter, TakesNoiseAwayFromSteadyAndFromJumpySensors) {
+TEST(LagFilter, RemovesNoiseOfSteadyAndOfJumpySensors) {
   for (const double noise_m : {0.003, 0.05}) {
     const auto [before, after] = ErrorsOf(noise_m);
     EXPECT_LT(after, 0.8 * before) << noise_m;
   }
 }
 
-TEST(LagFilter, LeavesASmoothMoveAlone) {
+TEST(LagFilter, KeepsSmoothMotion) {
   // 90 cm/s at most: less than a millimetre of a frame's 3 cm is lost.
   EXPECT_LT(ErrorsOf(0.0).second / 540, 0.001);
 }

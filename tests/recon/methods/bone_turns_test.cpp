@@ -39,7 +39,7 @@ double Twist_rad(const JointOrientations& orientations, const Posture& posture, 
   return std::atan2(-x.z(), x.x());
 }
 
-TEST(TurnedOntoBones, OfOnePostureIsItsOwnTurnedWithThePerson) {
+TEST(TurnedOntoBones, OnePostureRotatesWithThePerson) {
   const PostureDatabase database = TwoPostures(0.5, 0.0);
   const double yaw_rad = 2.1;
   const Posture in_camera = Placed(database.posture(0), {{0.3, 0.1, 2.5}, yaw_rad});

@@ -57,7 +57,7 @@ double Regular(int frame) { return frame * test::kFrame_s; }
 
 bool Same(const Posture& a, const Posture& b) { return a.position_m == b.position_m; }
 
-TEST(LearnedFilter, IsHeardFromTheFourthFrameOn) {
+TEST(LearnedFilter, ActsFromTheFourthFrameOn) {
   const auto seen = SeenBy(5, 12);
   const Made with = Follow(kOfThree, seen, Regular), without = Follow(kNothing, seen, Regular);
   for (size_t f = 0; f < seen.size(); ++f) {
@@ -66,7 +66,7 @@ TEST(LearnedFilter, IsHeardFromTheFourthFrameOn) {
   }
 }
 
-TEST(LearnedFilter, IsNearerTheTruthOfALateSensorThanWhatServesAnySensor) {
+TEST(LearnedFilter, BeatsTheGenericFilterForADelayedSensor) {
   const auto seen = SeenBy(5, 200);
   const auto truth = test::Seen(5, 200).truth;
   std::array<double, 2> off_m{};
@@ -79,7 +79,7 @@ TEST(LearnedFilter, IsNearerTheTruthOfALateSensorThanWhatServesAnySensor) {
   EXPECT_LT(off_m[1], 0.8 * off_m[0]);
 }
 
-TEST(LearnedFilter, StepsAsideAtAnotherFrameRate) {
+TEST(LearnedFilter, IsInactiveAtAnotherFrameRate) {
   const auto seen = SeenBy(5, 40);
   for (const double rate_hz : {15.0, 60.0}) {
     const TimeOf time_s = [rate_hz](int frame) { return frame / rate_hz; };
@@ -91,7 +91,7 @@ TEST(LearnedFilter, StepsAsideAtAnotherFrameRate) {
   }
 }
 
-TEST(LearnedFilter, StartsAnewWhereFramesAreMissing) {
+TEST(LearnedFilter, RestartsAfterMissingFrames) {
   const auto seen = SeenBy(5, 40);
   constexpr int kGap = 20;
   for (const double gap_s : {0.1, 3.0}) {
@@ -128,7 +128,7 @@ double ArmPulled_m(Learned learned, double hand_off_m) {
   return worst_m;
 }
 
-TEST(LearnedFilter, AHandThatJumpsOrIsLostPullsItsArmNoMoreThanWithoutIt) {
+TEST(LearnedFilter, JumpingOrLostHandDoesNotPullItsArm) {
   for (const double off_m : {0.6, std::numeric_limits<double>::quiet_NaN()}) {
     for (const Learned learned : {kOfThree, kOfOne}) {
       // Without, bones of constant length pull by up to 2 cm. A filter that took in half a metre in
@@ -139,7 +139,7 @@ TEST(LearnedFilter, AHandThatJumpsOrIsLostPullsItsArmNoMoreThanWithoutIt) {
   }
 }
 
-TEST(LearnedFilter, OfOneRecordingServesSomebodyElseBeforeTheSameBadSensor) {
+TEST(LearnedFilter, GeneralisesToAnotherPersonWithTheSameSensor) {
   const auto person = test::SeenBadly(5, 200);
   std::vector<TrackedPosture> seen;
   for (const Posture& posture : person.seen) seen.push_back(test::AllTracked(posture));

@@ -81,7 +81,7 @@ TEST_P(TiltedCamera, WithAFloorIsAsGoodAsALevelOne) {
   }
 }
 
-TEST_P(TiltedCamera, WithoutAFloorIsLevelledByWhoStands) {
+TEST_P(TiltedCamera, WithoutAFloorIsLevelledByAStandingPerson) {
   const double level_m = MeanError_m(GetParam(), 0.0, false);
   // A fifth of what a method guesses the hidden legs to be, where that is more.
   EXPECT_NEAR(MeanError_m(GetParam(), 27.0, false), level_m, std::max(0.01, 0.2 * level_m));
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, TiltedCamera,
                            return name;
                          });
 
-TEST(LevelEstimator, LeavesALevelCameraAlone) {
+TEST(LevelEstimator, KeepsALevelCamera) {
   LevelEstimator level;
   for (int f = 0; f < 60; ++f) {
     // A person leaning by five degrees is not a tilt of the camera.
@@ -119,7 +119,7 @@ std::optional<double> LevelledOffBy_deg(const Posture& staying, double tilt_deg)
 }
 
 // With bent knees the centre of mass is still above the feet.
-TEST(LevelEstimator, IsToldTheTiltByWhoBendsTheKnees) {
+TEST(LevelEstimator, EstimatesTheTiltFromAPersonWithBentKnees) {
   const Posture bent = test::InFrontOfCamera(test::Gesture(0.3, 0.3, 0.3, 0.5));
   const auto off_deg = LevelledOffBy_deg(bent, 20.0);
   ASSERT_TRUE(off_deg.has_value());
@@ -128,7 +128,7 @@ TEST(LevelEstimator, IsToldTheTiltByWhoBendsTheKnees) {
 }
 
 // On one leg the midpoint of the feet is not the point of support.
-TEST(LevelEstimator, IsToldNothingByWhoStandsOnOneLeg) {
+TEST(LevelEstimator, LearnsNothingFromAPersonOnOneLeg) {
   Posture raised = test::InFrontOfCamera(test::Gesture(0.3, 0.3, 0.3));
   for (const Joint joint : {Joint::kKneeLeft, Joint::kAnkleLeft, Joint::kFootLeft}) {
     const Vector3d hip = raised[Joint::kHipLeft];
@@ -138,7 +138,7 @@ TEST(LevelEstimator, IsToldNothingByWhoStandsOnOneLeg) {
 }
 
 // In front of a level camera: a lunge sideways, and a raised straight leg.
-TEST(LevelEstimator, LeavesRealExercisesAlone) {
+TEST(LevelEstimator, KeepsTheLevelDuringRealExercises) {
   const auto file = ossa::test::SharedFolder() / "real/uiprmd_kinect_vicon/raw_e05.tar.gz";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
   for (const std::string name : {"m04_s10_e05", "m06_s01_e05", "m06_s10_e05"}) {
@@ -152,7 +152,7 @@ TEST(LevelEstimator, LeavesRealExercisesAlone) {
   }
 }
 
-TEST(LevelEstimator, DoesNotTakeSomebodyWhoLiesForSomebodyWhoStands) {
+TEST(LevelEstimator, DoesNotTakeALyingPersonForAStandingOne) {
   LevelEstimator level;
   const Posture lying = Moved(At(0), TiltedBy(80.0));
   for (int f = 0; f < 60; ++f) {
@@ -169,7 +169,7 @@ std::optional<Isometry3d> LevelByFloor(LevelEstimator& level, double tilt_deg, i
   return made;
 }
 
-TEST(LevelEstimator, StaysTheSameWhileTheFloorTrembles) {
+TEST(LevelEstimator, KeepsTheLevelWhileTheFloorIsNoisy) {
   LevelEstimator level;
   const auto first = LevelByFloor(level, 20.0, 9);
   ASSERT_TRUE(first);
@@ -178,7 +178,7 @@ TEST(LevelEstimator, StaysTheSameWhileTheFloorTrembles) {
   EXPECT_TRUE(first->isApprox(*later));
 }
 
-TEST(LevelEstimator, DoesNotTakeATableForTheFloorAtOnce) {
+TEST(LevelEstimator, DoesNotAcceptATableAsFloorAtOnce) {
   LevelEstimator level;
   EXPECT_FALSE(LevelByFloor(level, 35.0, 2));
   const auto first = LevelByFloor(level, 20.0, 9);
@@ -186,7 +186,7 @@ TEST(LevelEstimator, DoesNotTakeATableForTheFloorAtOnce) {
   EXPECT_TRUE(first->isApprox(*LevelByFloor(level, 35.0, 2)));
 }
 
-TEST(LevelEstimator, FollowsACameraThatIsTiltedAnew) {
+TEST(LevelEstimator, FollowsAChangedTilt) {
   LevelEstimator level;
   const auto first = LevelByFloor(level, 20.0, 9);
   const auto later = LevelByFloor(level, 10.0, 9);
@@ -195,7 +195,7 @@ TEST(LevelEstimator, FollowsACameraThatIsTiltedAnew) {
   EXPECT_LT((up - Vector3d::UnitY()).norm(), 1e-6);
 }
 
-TEST(LevelEstimator, StaysTheSameWhereTheFloorIsGoneForAWhile) {
+TEST(LevelEstimator, KeepsTheLevelWhileTheFloorIsLost) {
   LevelEstimator level;
   const auto first = LevelByFloor(level, 20.0, 9);
   ASSERT_TRUE(first);

@@ -42,7 +42,7 @@ class LearnedMethod : public testing::TestWithParam<std::string> {
   }
 };
 
-TEST_P(LearnedMethod, TakesALearnedOffsetOff) {
+TEST_P(LearnedMethod, RemovesALearnedOffset) {
   const auto method = Make();
   Posture made, truth;
   for (int f = 0; f < 30; ++f) {
@@ -90,7 +90,7 @@ TEST_P(LearnedMethod, ForgetsOneOutlier) {
   }
 }
 
-TEST_P(LearnedMethod, SettlesAfterAJumpWithoutOvershootingFar) {
+TEST_P(LearnedMethod, SettlesAfterAJumpWithoutMuchOvershoot) {
   for (const size_t joint : {kHand, kElbow}) {
     for (const TrackingState state : {TrackingState::kTracked, TrackingState::kInferred}) {
       const auto strays = Strays_m(*Make(), joint, state, std::vector<double>(20, 0.2));
@@ -166,7 +166,7 @@ std::vector<double> HandErrors_m(const std::shared_ptr<const LearnedModels>& lea
 
 // The learned samples are optima of eq. 22, which include reliability: predictions that are wrong
 // for this person fade. Learning its own predictions would add nothing.
-TEST(Liu2016, LearnsOfAPersonAndAMovementItDoesNotKnowWhileItRuns) {
+TEST(Liu2016, LearnsUnknownPeopleAndMovementsIncrementally) {
   const auto learned = UnevenHand();
   const auto with = HandErrors_m(learned, true), without = HandErrors_m(learned, false);
   EXPECT_NEAR(without.back(), without[5], 1e-3);  // nothing else changes with time
@@ -182,7 +182,7 @@ std::string NameOfCase(const testing::TestParamInfo<std::string>& info) {
 
 // `ossa learn --correction-only` and the shipped file: these methods would return postures
 // unchanged.
-TEST_P(LearnedMethod, RefusesAFileThatHoldsOnlyWhatBestUses) {
+TEST_P(LearnedMethod, RefusesACorrectionOnlyFile) {
   ReconstructorOptions options;
   options.method = GetParam();
   options.learned = std::make_shared<const LearnedModels>();
@@ -190,7 +190,7 @@ TEST_P(LearnedMethod, RefusesAFileThatHoldsOnlyWhatBestUses) {
 }
 
 // Online samples of one person must not affect the next.
-TEST(Liu2016, ForgetsWhatItLearnedOfAPersonWhenReset) {
+TEST(Liu2016, ForgetsTheLearnedPersonWhenReset) {
   ReconstructorOptions options;
   options.method = "liu-2016";
   options.learned = LowHand();

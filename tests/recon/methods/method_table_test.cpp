@@ -20,7 +20,7 @@ TEST_P(MethodRow, IsFoundByItsName) {
 }
 
 // Without files a method can be created unless its row requires one.
-TEST_P(MethodRow, SaysWhatTheMethodCannotBeMadeWithout) {
+TEST_P(MethodRow, StatesTheRequiredModels) {
   const MethodInfo& row = RequireMethod(GetParam());
   ReconstructorOptions options;
   options.method = GetParam();
@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(All, MethodRow, testing::ValuesIn(ReconstructionMethods
                          });
 
 // For methods that need no files.
-TEST(MethodTable, SaysWhoKeepsBones) {
+TEST(MethodTable, StatesWhichMethodsKeepBones) {
   for (const MethodInfo& row : MethodTable()) {
     if (row.database == Reads::kRequired || row.learned == Reads::kRequired) continue;
     ReconstructorOptions options;
@@ -53,7 +53,7 @@ TEST(MethodTable, SaysWhoKeepsBones) {
   }
 }
 
-TEST(MethodTable, HasEachNameOnceAndTheDefault) {
+TEST(MethodTable, NamesAreUniqueAndIncludeTheDefault) {
   auto names = ReconstructionMethods();
   EXPECT_EQ(names.size(), MethodTable().size());
   std::sort(names.begin(), names.end());
@@ -61,7 +61,7 @@ TEST(MethodTable, HasEachNameOnceAndTheDefault) {
   EXPECT_NE(FindMethod(kDefaultMethod), nullptr);
 }
 
-TEST(MethodTable, NamesAllMethodsWhereOneIsUnknown) {
+TEST(MethodTable, UnknownNameIsRefusedWithAllNames) {
   EXPECT_EQ(FindMethod("treacle"), nullptr);
   try {
     RequireMethod("treacle");

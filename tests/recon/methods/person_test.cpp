@@ -11,7 +11,7 @@ namespace {
 
 // The database query must have the hand where it is, whatever the arm's length and the guess for
 // the hidden elbow.
-TEST(Person, KeepsTheReachOfAHandWhoseArmIsHidden) {
+TEST(Person, HiddenArmKeepsTheReachOfItsHand) {
   for (const double scale : {0.6, 1.0, 1.3}) {
     Person person;
     const Posture before = test::Gesture(0.2, 0.2, 0.1), now = test::Gesture(1.6, 0.2, 0.8);
@@ -26,7 +26,7 @@ TEST(Person, KeepsTheReachOfAHandWhoseArmIsHidden) {
 }
 
 // What is not seen of a new person is completed alike whichever way they face.
-TEST(Person, IsCompletedInTheFirstFrameAsTheyAreTurned) {
+TEST(Person, FirstFrameIsCompletedInThePersonsHeading) {
   constexpr std::array kUnseen = {Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft,
                                   Joint::kHipLeft,   Joint::kHipRight,  Joint::kHipCenter};
   const Posture facing = test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1));
@@ -64,7 +64,7 @@ Posture WithHips(double factor) {
 }
 
 // A person who enters sideways: in the first frame the hips coincide.
-TEST(BodySize, TakesBonesAnewThatAreTypicallyOthersThanInTheFirstFrame) {
+TEST(BodySize, CorrectsBonesThatDifferFromTheFirstFrame) {
   BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
@@ -81,7 +81,7 @@ TEST(BodySize, TakesBonesAnewThatAreTypicallyOthersThanInTheFirstFrame) {
 }
 
 // With noisy bones the first frame's lengths are kept, to the bit.
-TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
+TEST(BodySize, KeepsConsistentBones) {
   BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
@@ -98,7 +98,7 @@ TEST(BodySize, LeavesBonesAloneThatAreSeenAsTheyAre) {
 
 // The mean of the first three frames' estimates, whatever the distances between joints; then
 // constant.
-TEST(BodySize, OfBonesThatAreJudgedSettlesInThreeFrames) {
+TEST(BodySize, SettlesInThreeFramesWithNetworkEstimates) {
   BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
@@ -128,7 +128,7 @@ TEST(BodySize, OfBonesThatAreJudgedSettlesInThreeFrames) {
 }
 
 // A bone whose estimate changes is adapted; its neighbours are kept, to the bit.
-TEST(BodySize, OfBonesThatAreJudgedOnlyThoseGrowThatAreOthers) {
+TEST(BodySize, ChangesOnlyWrongBonesOfNetworkEstimates) {
   BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
@@ -147,7 +147,7 @@ TEST(BodySize, OfBonesThatAreJudgedOnlyThoseGrowThatAreOthers) {
   EXPECT_EQ(size.lengths_m()[knee], settled_m[knee]);
 }
 
-TEST(BodySize, IsMeasuredAnewForAnotherSizeAfterASecond) {
+TEST(BodySize, AdaptsToAnotherSizeAfterASecond) {
   BodySize size({.as_measured = true});
   JointWeights all;
   all.fill(1.0);
@@ -178,7 +178,7 @@ TEST(Person, KeepsReferenceLengthsOverAGap) {
   EXPECT_GT(after.terms.kinematics[Index(Joint::kElbowLeft)], 0.98);
 }
 
-TEST(Person, IsForgottenAfterAGapAndWhenTimeRunsBackNotWhenATimeRepeats) {
+TEST(Person, IsForgottenAfterAGapOrBackwardsTimeButNotARepeatedTime) {
   Person person;
   const TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1)));
   struct Case {
@@ -200,7 +200,7 @@ TEST(Person, IsForgottenAfterAGapAndWhenTimeRunsBackNotWhenATimeRepeats) {
   }
 }
 
-TEST(Person, TakesTrunkBonesAsTheSensorHasThem) {
+TEST(Person, UsesTheSensorsTrunkBones) {
   Person person;
   Posture posture = test::InFrontOfCamera(test::Gesture(0.2, 0.2, 0.1));
   const Eigen::Vector3d up = posture[Joint::kSpine] - posture[Joint::kHipCenter];

@@ -59,7 +59,7 @@ PoseSelection ByBruteForce(const PoseGraphSearch& search, const PoseQuery& query
 
 // Movements that the graph does not hold. What the way down misses is little beside what the best
 // node is off: 15 % is where most nodes of the neighbourhood lie.
-TEST(PoseGraphSearch, FindsFromAboveNearlyWhatBruteForceFinds) {
+TEST(PoseGraphSearch, FindsNearlyTheOptimumOfBruteForce) {
   ASSERT_GT(Large()->size(), 5000);
   const PoseGraphSearch search(Large());
   double best_m = 0.0, found_m = 0.0;
@@ -79,7 +79,7 @@ TEST(PoseGraphSearch, FindsFromAboveNearlyWhatBruteForceFinds) {
   EXPECT_GT(same, queries * 3 / 4);
 }
 
-TEST(PoseGraphSearch, NeverForgetsWhereItStarts) {
+TEST(PoseGraphSearch, NeverReturnsWorseThanItsStart) {
   const PoseGraphSearch search(Large());
   const int node = 4321;
   PoseQuery query = QueryFor(Large()->posture(node));
@@ -89,7 +89,7 @@ TEST(PoseGraphSearch, NeverForgetsWhereItStarts) {
   EXPECT_EQ(found.similarity_m, 0.0);
 }
 
-TEST(PoseGraphSearch, OfASmallGraphLooksAtEveryNode) {
+TEST(PoseGraphSearch, VisitsEveryNodeOfASmallGraph) {
   const auto small =
       std::make_shared<const PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
   const PoseGraphSearch search(small);

@@ -49,7 +49,7 @@ double Error_m(Reconstructor& method, const std::vector<size_t>& hidden, size_t 
   return sum_m / kFrames;
 }
 
-TEST(BestWithPrior, MovesAHiddenLegWithTheOtherAndLeavesWhatIsSeen) {
+TEST(BestWithPrior, MovesAHiddenLegWithTheOtherAndKeepsVisibleJoints) {
   const std::vector<size_t> leg = {17, 18, 19};
   const auto held = MakeBestOne(false), expected = MakeBestOne();
   const double off_m = Error_m(*expected, leg, 17);
@@ -66,7 +66,7 @@ TEST(BestWithPrior, CompletesChildrenAndTallPeople) {
   }
 }
 
-TEST(BestWithPrior, ThinksOfHandsAndFeetAlone) {
+TEST(BestWithPrior, CompletesThePostureFromHandsAndFeetAlone) {
   // Setup (c) of Shum 2013 table III: fewer joints than a database needs.
   std::vector<size_t> hidden;
   for (size_t i = 1; i < kJointCount; ++i) {
@@ -76,7 +76,7 @@ TEST(BestWithPrior, ThinksOfHandsAndFeetAlone) {
   EXPECT_LT(Error_m(*expected, hidden, 5), 0.5 * Error_m(*held, hidden, 5));
 }
 
-TEST(BestWithPrior, MirrorsWhatItIsShownMirrored) {
+TEST(BestWithPrior, IsEquivariantUnderMirroring) {
   const auto mirrored = [](const TrackedPosture& seen) {
     TrackedPosture out = seen;
     for (size_t i = 0; i < kJointCount; ++i) {
@@ -100,7 +100,7 @@ TEST(BestWithPrior, MirrorsWhatItIsShownMirrored) {
   }
 }
 
-TEST(BestWithPrior, IsFiniteWhateverIsSeen) {
+TEST(BestWithPrior, IsFiniteForAnyInput) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const size_t seen : {0U, 1U, 2U, 5U}) {
     const auto method = MakeBestOne();

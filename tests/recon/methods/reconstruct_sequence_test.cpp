@@ -47,7 +47,7 @@ std::vector<double> Forearms_m(const SkeletonSequence& sequence, size_t body) {
 
 class OrientationsOf : public testing::TestWithParam<std::string> {};
 
-TEST_P(OrientationsOf, EveryMethodAreWrittenAlongTheBones) {
+TEST_P(OrientationsOf, EveryMethodLieAlongTheBones) {
   ReconstructorOptions options;
   options.method = GetParam();
   options.database =
@@ -112,7 +112,7 @@ TEST(ReconstructSequence, RefusesAFrameThatHasABodyTwice) {
 
 // Two people, the second with a forearm that the first two frames have too long: bones by the whole
 // recording are nearer the truth, and the same in every frame.
-TEST(MeasureBones, OfARecordingAreKeptFromItsFirstFrameOn) {
+TEST(MeasureBones, WholeRecordingGivesConstantBones) {
   SkeletonSequence sequence = Recording(60, {4, 9});
   for (int f = 0; f < 2; ++f) {
     for (const size_t joint : {kForearm, kHand})
@@ -131,7 +131,7 @@ TEST(MeasureBones, OfARecordingAreKeptFromItsFirstFrameOn) {
 }
 
 // Memory of people who left is freed, but their measurements are kept.
-TEST(MeasureBones, TellsThoseOfPeopleWhoLeftLongAgo) {
+TEST(MeasureBones, IncludesPeopleWhoLeftEarly) {
   SkeletonSequence sequence = Recording(30, {4});
   const SkeletonSequence later = Recording(30, {9});
   for (SkeletonFrame frame : later.frames) {
@@ -145,7 +145,7 @@ TEST(MeasureBones, TellsThoseOfPeopleWhoLeftLongAgo) {
 }
 
 // Files have arbitrary positions for unseen joints: here the camera itself, 2.5 m away.
-TEST(ButterworthSequence, TakesNothingFromJointsThatAreNotTracked) {
+TEST(ButterworthSequence, IgnoresUntrackedJoints) {
   SkeletonSequence sequence = Recording(60, {1});
   for (int f = 28; f < 32; ++f) {
     JointRecord& hand = *sequence.frames[static_cast<size_t>(f)].bodies[0].joints[kHand];
@@ -163,7 +163,7 @@ TEST(ButterworthSequence, TakesNothingFromJointsThatAreNotTracked) {
 }
 
 // Loggers poll faster than the sensor delivers.
-TEST(ButterworthSequence, FiltersWhatSaysEachTimeTwice) {
+TEST(ButterworthSequence, FiltersSequencesWithRepeatedTimes) {
   SkeletonSequence twice = Recording(60, {1});
   for (size_t f = 0; f < 60; ++f) {
     twice.frames[f].bodies[0].joints[kHand]->position_m.y() += f % 2 == 0 ? 0.02 : -0.02;
@@ -181,7 +181,7 @@ TEST(ButterworthSequence, FiltersWhatSaysEachTimeTwice) {
 }
 
 // Samples around an absence are not consecutive.
-TEST(ButterworthSequence, BeginsAnewAfterAnAbsence) {
+TEST(ButterworthSequence, RestartsAfterAnAbsence) {
   SkeletonSequence sequence = Recording(120, {1});
   sequence.frames.erase(sequence.frames.begin() + 30, sequence.frames.begin() + 90);
   SkeletonSequence second = sequence;

@@ -45,7 +45,7 @@ void ExpectFinite(const ReconstructedPosture& made) {
   }
 }
 
-TEST_P(EveryMethod, FollowsAPersonSeenWell) {
+TEST_P(EveryMethod, FollowsAWellObservedPerson) {
   for (const double scale : {0.9 / 1.66, 1.0, 2.2 / 1.66}) {  // people of 0.9 m, 1.66 m and 2.2 m
     const auto method = Make();
     double error = 0.0;
@@ -72,7 +72,7 @@ TEST_P(EveryMethod, GivesTheSamePosturesForTheSameSeed) {
   }
 }
 
-TEST_P(EveryMethod, ForgetsAllOfThePersonWhenReset) {
+TEST_P(EveryMethod, ForgetsThePersonWhenReset) {
   ReconstructorOptions options;
   options.method = GetParam();
   options.database = Database();
@@ -93,7 +93,7 @@ TEST_P(EveryMethod, ForgetsAllOfThePersonWhenReset) {
   }
 }
 
-TEST_P(EveryMethod, SurvivesWhatNoSensorShouldSay) {
+TEST_P(EveryMethod, StaysFiniteForInvalidInput) {
   const auto method = Make();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   TrackedPosture good = test::AllTracked(test::InFrontOfCamera(test::Motion(0.0)));
@@ -117,7 +117,7 @@ TEST_P(EveryMethod, SurvivesWhatNoSensorShouldSay) {
 
 // A logger gives two consecutive frames the same time stamp: the result must be as without the
 // repetition. Steps of 1/32 s have no rounding.
-TEST_P(EveryMethod, RemembersThePersonWhenATimeRepeats) {
+TEST_P(EveryMethod, KeepsThePersonWhenATimeRepeats) {
   const auto right = Make(), repeating = Make();
   std::mt19937_64 rng(7);
   for (int f = 0; f < 12; ++f) {
@@ -135,7 +135,7 @@ TEST_P(EveryMethod, RemembersThePersonWhenATimeRepeats) {
   }
 }
 
-TEST_P(EveryMethod, SaysThatUnseenJointsAreUnreliable) {
+TEST_P(EveryMethod, ReportsUnseenJointsAsUnreliable) {
   const auto method = Make();
   TrackedPosture observed = test::AllTracked(test::InFrontOfCamera(test::Motion(0.0)));
   for (int f = 0; f < 8; ++f) method->Step({observed, f / 30.0, nullptr});
@@ -169,7 +169,7 @@ TEST_P(MethodWithBones, KeepsBoneLengthsConstant) {
 
 // Whatever is observed, from the first frame on: an arm too long in the first frame, noise, another
 // person's size for seconds.
-TEST_P(MethodWithBones, KeepsBonesThatAreKnown) {
+TEST_P(MethodWithBones, KeepsGivenBones) {
   BoneLengths known = ScaledBoneLengths(1.1);
   known[5] *= 0.9;
   const auto method = Make(known);
@@ -190,7 +190,7 @@ TEST_P(MethodWithBones, KeepsBonesThatAreKnown) {
 
 // In the first frame the right arm is half as long again; the typical length is reported
 // nevertheless.
-TEST_P(MethodWithBones, TellsTheBonesOfAllThatWasSeen) {
+TEST_P(MethodWithBones, ReportsBonesOfAllPeople) {
   const auto method = Make();
   std::mt19937_64 rng(5);
   for (int f = 0; f < 60; ++f) {
@@ -227,7 +227,7 @@ depth::DepthFrame Wall(double depth_m) {
   return frame;
 }
 
-TEST(Best, DoubtsAndRepairsAHandThatTheDepthImageDoesNotShow) {
+TEST(Best, RepairsAHandThatTheDepthImageDoesNotShow) {
   ReconstructorOptions options;
   options.database = Database();
   const auto method = MakeReconstructor(options);
@@ -251,7 +251,7 @@ TEST(MakeReconstructor, NamesTheUnknownMethodAndTheMissingDatabase) {
   EXPECT_THROW(MakeReconstructor(options), InputError);
 }
 
-TEST(MakeReconstructor, RefusesBonesThatCannotBeAndMethodsThatKeepNone) {
+TEST(MakeReconstructor, RefusesInvalidBonesAndMethodsWithoutBones) {
   ReconstructorOptions options;
   options.bones_m = StandardBoneLengths();
   EXPECT_NO_THROW(MakeReconstructor(options));

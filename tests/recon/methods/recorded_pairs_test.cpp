@@ -29,7 +29,7 @@ double Largest_m(const std::vector<PosturePair>& pairs) {
 }
 
 // All readers number frames from 0: recordings of different rates share numbers.
-TEST(AddPairs, PairsWhatWasAtTheSameTimeWhateverTheRates) {
+TEST(AddPairs, PairsByTimeForAnyFrameRates) {
   for (const double hz : {30.0, 25.0, 60.0, 100.0, 120.0}) {
     std::vector<PosturePair> pairs;
     EXPECT_GE(AddPairs(Recorded(30.0), Recorded(hz), pairs), 298U) << hz;
@@ -37,7 +37,7 @@ TEST(AddPairs, PairsWhatWasAtTheSameTimeWhateverTheRates) {
   }
 }
 
-TEST(AddPairs, TakesNoTruthAcrossAGap) {
+TEST(AddPairs, DoesNotInterpolateTruthAcrossAGap) {
   SkeletonSequence truth = Recorded(60.0);
   truth.frames.erase(truth.frames.begin() + 120, truth.frames.begin() + 240);  // 2 to 4 s
   std::vector<PosturePair> pairs;
@@ -47,7 +47,7 @@ TEST(AddPairs, TakesNoTruthAcrossAGap) {
 }
 
 // Two clocks, one of them 1 % slow, and the same frames: numbers tell which belong together.
-TEST(AddPairs, GoesByNumbersWhereClocksDriftApart) {
+TEST(AddPairs, PairsByNumberIfClocksDrift) {
   SkeletonSequence truth = Recorded(30.0);
   for (SkeletonFrame& frame : truth.frames) frame.time_s *= 1.01;
   std::vector<PosturePair> pairs;
@@ -55,12 +55,12 @@ TEST(AddPairs, GoesByNumbersWhereClocksDriftApart) {
   EXPECT_LT(Largest_m(pairs), 1e-9);
 }
 
-TEST(AddPairs, FindsNothingAtOtherTimes) {
+TEST(AddPairs, PairsNothingAtOtherTimes) {
   std::vector<PosturePair> pairs;
   EXPECT_EQ(AddPairs(Recorded(30.0), Recorded(60.0, 10.0, 1e6), pairs), 0U);
 }
 
-TEST(AddPairs, TakesNoTruthFromJointsThatAreNotTracked) {
+TEST(AddPairs, IgnoresUntrackedTruthJoints) {
   SkeletonSequence truth = Recorded(30.0);
   for (SkeletonFrame& frame : truth.frames) {
     JointRecord& hand = *frame.bodies[0].joints[7];

@@ -69,7 +69,7 @@ TEST(Shum2013, HoldsThePostureWhileNothingIsReliable) {
 }
 
 // Sec. VII-B: w_n = 1 / sum over i of R_i (p_i - p_i^n)^2, eq. 9.
-TEST(InverseDistances, AreThoseOfEquation9) {
+TEST(InverseDistances, EqualEquation9) {
   const auto db = PostureDatabase::Build(test::GestureClips(), {});
   const PostureVector made = ToVector(test::Motion(0.7));
   JointWeights reliability;
@@ -87,7 +87,7 @@ TEST(InverseDistances, AreThoseOfEquation9) {
   }
 }
 
-TEST(PostureSpace, ReproducesItsNeighboursUpToWhatItSaysLiesOutside) {
+TEST(PostureSpace, ReproducesItsNeighboursUpToTheStatedResidual) {
   const Problem p = MakeProblem(1.0, false);
   EXPECT_LE(p.space.dimensions(), 20);
   const Eigen::MatrixXf gram = p.space.basis.transpose().lazyProduct(p.space.basis);
@@ -148,7 +148,7 @@ TEST(EnergyResiduals, HaveTheirJacobian) {
   }
 }
 
-TEST(EnergyResiduals, SquaredAreTheEnergyOfEquation15) {
+TEST(EnergyResiduals, SumOfSquaresIsTheEnergyOfEquation15) {
   const Problem p = MakeProblem(0.4, true);
   const Eigen::VectorXf q = p.space.neighbours.col(4);  // its own nearest neighbour
   const EnergyResiduals residuals(p.space, p.inputs, {}, 4);
@@ -161,7 +161,7 @@ TEST(EnergyResiduals, SquaredAreTheEnergyOfEquation15) {
 
 // In numbers: one dimension, the head's x. The head at 0.3 m, its bone wanted 0.2 m long, seen at
 // 0.1 m and half believed, 0.1 m from the nearest of two neighbours, expected at 0.25 m.
-TEST(Energies, AreEquation15InNumbers) {
+TEST(Energies, EqualEquation15) {
   Problem p;
   const Eigen::Index head = FirstCoordinate(Index(Joint::kHead));
   p.space.basis.setZero(kPostureDims, 1);
@@ -181,7 +181,7 @@ TEST(Energies, AreEquation15InNumbers) {
   EXPECT_NEAR(Energies(p.space, p.inputs, {}, q)[0], expected, 1e-6);  // single precision
 }
 
-TEST(SearchStochastic, IsTheSameForTheSeed) {
+TEST(SearchStochastic, IsDeterministicForASeed) {
   const Problem p = MakeProblem(1.7, true);
   const Eigen::VectorXf start = p.space.neighbours.col(0);
   EXPECT_EQ(SearchStochastic(p.space, p.inputs, {}, start, 3).q,
@@ -189,7 +189,7 @@ TEST(SearchStochastic, IsTheSameForTheSeed) {
 }
 
 // From the neighbour farthest off, as after a jump.
-TEST(SearchStochastic, BeatsItsStart) {
+TEST(SearchStochastic, ImprovesOnItsStart) {
   for (const double t : {0.3, 1.1, 1.7, 2.4}) {
     const Problem p = MakeProblem(t, true);
     const Eigen::VectorXf start = p.space.neighbours.rightCols(1);
@@ -199,7 +199,7 @@ TEST(SearchStochastic, BeatsItsStart) {
 }
 
 // Two searches of the same energy: the results differ by less than a seventh.
-TEST(Searches, OfTheSameEnergyFindTheSame) {
+TEST(Searches, FindTheSameMinimum) {
   for (const double t : {0.3, 1.1, 2.4}) {
     const Problem p = MakeProblem(t, true);
     const Eigen::VectorXf start = p.space.neighbours.col(0);
@@ -236,7 +236,7 @@ double TurnedApart_deg(bool extend) {
   return sum_rad / (6.0 * (kFrames - kFrom)) * 180.0 / M_PI;
 }
 
-TEST(Shum2013, PosturesThatJoinTheDatabaseHaveTheirTurns) {
+TEST(Shum2013, AddedPosturesHaveOrientations) {
   EXPECT_LT(TurnedApart_deg(true), TurnedApart_deg(false) + 5.0);
 }
 
@@ -259,7 +259,7 @@ double ErrorOfABowedHead_m(bool keep_reliable) {
   return (made.posture[Joint::kHead] - truth[Joint::kHead]).norm();
 }
 
-TEST(Shum2013, ReliableJointsCanStayWhereTheDatabaseHasNoSuchPosture) {
+TEST(Shum2013, KeepsReliableJointsFarFromTheDatabase) {
   // The space of upright heads cannot bow one; a reliable head nearly stays.
   EXPECT_GT(ErrorOfABowedHead_m(false), 0.1);
   EXPECT_LT(ErrorOfABowedHead_m(true), 0.02);

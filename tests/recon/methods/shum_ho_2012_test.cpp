@@ -31,7 +31,7 @@ int MatchWithoutLeftArm(const PostureDatabase& database, const Posture& seen) {
   return best;
 }
 
-TEST(ShumHo2012, TakesMissingJointsFromTheMatchedPostureAtOnce) {
+TEST(ShumHo2012, CompletesMissingJointsFromTheMatchedPostureAtOnce) {
   ReconstructorOptions options;
   options.method = "shum-ho-2012";
   auto clips = test::GestureClips();

@@ -130,7 +130,7 @@ TEST_P(UnseenTrunk, StaysWithinReachOfTheMeasuredJoints) {
   }
 }
 
-TEST_P(UnseenTrunk, MovesNoMeasuredJointThatIsCalledTracked) {
+TEST_P(UnseenTrunk, KeepsTrackedJoints) {
   constexpr double kStays_m = 0.15;
   for (size_t f = 0; f < made_.frames.size(); ++f) {
     const BodyRecord& made = made_.frames[f].bodies.at(0);
@@ -166,7 +166,7 @@ class UnseenHandOrWrist : public UnseenTrunk {};
 
 // Joints that files do not have, such as hands (UI-PRMD) or wrists (ITOP, NiTE), must follow the
 // arm.
-TEST_P(UnseenHandOrWrist, StaysAtTheArm) {
+TEST_P(UnseenHandOrWrist, StaysNearTheArm) {
   constexpr double kSlack = 1.35;    // of the bones' lengths: another person's, and a guess
   constexpr double kSlack_m = 0.05;  // of filters that lag
   for (size_t f = 0; f < made_.frames.size(); f += 7) {

@@ -30,7 +30,7 @@ Samples MakeSamples(int count, double noise_m = 0.0) {
   return s;
 }
 
-TEST(GaussianProcess, PredictsAsTheTextbookFormulaWithAnExplicitInverse) {
+TEST(GaussianProcess, EqualsTheFormulaWithAnExplicitInverse) {
   const Samples s = MakeSamples(20);
   const GaussianProcessParameters p;
   const GaussianProcess process(p, s.x, s.y);
@@ -48,7 +48,7 @@ TEST(GaussianProcess, PredictsAsTheTextbookFormulaWithAnExplicitInverse) {
   EXPECT_NEAR(made.variance, variance, 1e-10);
 }
 
-TEST(GaussianProcess, GrownSampleBySampleEqualsTheOneLearnedAtOnce) {
+TEST(GaussianProcess, IncrementalLearningEqualsBatchLearning) {
   const Samples s = MakeSamples(30);
   GaussianProcess grown({}, s.x.topRows(10), s.y.topRows(10));
   for (int i = 10; i < 30; ++i) grown.Add(s.x.row(i).transpose(), s.y.row(i).transpose());
@@ -101,7 +101,7 @@ double KlWithout(const GaussianProcessParameters& p, const Samples& s, Eigen::In
          0.5 * (with.mean - without.mean).squaredNorm() / b;  // eqs. 1-2, three outputs
 }
 
-TEST(BudgetedSamples, FirstDropsTheSampleWhoseLossTheKlDivergenceFeelsLeast) {
+TEST(BudgetedSamples, DropTheSampleWithTheLeastKlDivergenceFirst) {
   const Samples s = MakeSamples(12, 0.01);
   const GaussianProcessParameters p;
   Eigen::Index least = 0;
@@ -115,7 +115,7 @@ TEST(BudgetedSamples, FirstDropsTheSampleWhoseLossTheKlDivergenceFeelsLeast) {
 
 // Eqs. 10, 12 and 13 written out, over the L nearest centres. The kernels' own widths differ by a
 // factor of a thousand: the widest must not dominate far from its samples.
-TEST(LocalMixture, WeighsTheNearestModelsByOneKernelForAll) {
+TEST(LocalMixture, WeighsTheNearestModelsByACommonKernel) {
   const Samples s = MakeSamples(30);
   std::vector<GaussianProcess> models;
   const std::array<double, 3> widths = {0.1, 10.0, 100.0};
@@ -142,7 +142,7 @@ TEST(LocalMixture, WeighsTheNearestModelsByOneKernelForAll) {
   EXPECT_NEAR(made.variance, variance / total, 1e-12);
 }
 
-TEST(LocalMixture, FollowsTheFunctionAndOpensAModelWhereNothingIsSimilar) {
+TEST(LocalMixture, FitsTheFunctionAndAddsModelsForNewRegions) {
   const Samples s = MakeSamples(400);
   LocalMixtureOptions options;
   options.regions = 6;
@@ -176,7 +176,7 @@ TEST(LocalMixture, IsBudgetedWhileItLearns) {
   EXPECT_LT((mixture.Predict(at, 1).mean - other).norm(), 0.5 * before);
 }
 
-TEST(LocalMixture, CountsTheNoiseOfThoseThatPredict) {
+TEST(LocalMixture, CombinesTheNoiseOfThePredictingModels) {
   const Samples s = MakeSamples(40);
   GaussianProcessParameters quiet, loud;
   quiet.beta = 1e6, loud.beta = 1e2;

@@ -45,7 +45,7 @@ Error ErrorOf(const std::vector<Eigen::Vector3d>& way, const std::vector<Posture
   return error;
 }
 
-TEST(LinearFilter, KnowsDelayAndJitterOfASensorOnSomebodyElse) {
+TEST(LinearFilter, ReducesDelayAndJitterOnAnotherPerson) {
   const test::SeenPerson person = test::Seen(5);
   LinearFilter::Steps steps;
   steps.fill(LinearFilter::kSteps);
@@ -71,7 +71,7 @@ TEST(LinearFilter, KnowsDelayAndJitterOfASensorOnSomebodyElse) {
   }
 }
 
-TEST(LinearFilter, OfSeveralPeopleIsOfStepsOfOneOfInfluences) {
+TEST(LinearFilter, UsesStepsForSeveralPeopleAndInfluencesForOne) {
   EXPECT_FALSE(LearnedOfThree().HasInfluences());
   EXPECT_TRUE(LearnedOfOne().Influences(LinearFilter::kNow, kHand));
   for (const auto output : {LinearFilter::kNow, LinearFilter::kBefore}) {
@@ -81,7 +81,7 @@ TEST(LinearFilter, OfSeveralPeopleIsOfStepsOfOneOfInfluences) {
   }
 }
 
-TEST(LinearFilter, OfOnePersonHoldsForSomebodyElseBeforeTheSameBadSensor) {
+TEST(LinearFilter, GeneralisesToAnotherPersonWithTheSameSensor) {
   const test::SeenPerson person = test::SeenBadly(5);
   LinearFilter::Steps steps;
   steps.fill(LinearFilter::kSteps);
@@ -111,13 +111,13 @@ TEST(LinearFilter, OfOnePersonHoldsForSomebodyElseBeforeTheSameBadSensor) {
   }
 }
 
-TEST(LinearFilter, OfOnePersonIsNotLearnedOfASensorThatErrsOtherwiseEveryTime) {
+TEST(LinearFilter, IsNotLearnedFromUnsystematicErrorsOfOnePerson) {
   auto pairs = test::PairsOfABadSensor();
   for (PosturePair& pair : pairs) pair.clip = 0, pair.time_s = 0.0;
   EXPECT_TRUE(LinearFilter::Learn(pairs).empty());
 }
 
-TEST(InfluenceFeature, HasTheWayToEachPositionWholeAndFaded) {
+TEST(InfluenceFeature, HasDisplacementsWithAndWithoutDecay) {
   std::vector<Posture> window(6);
   for (size_t f = 0; f < window.size(); ++f) {
     window[f].position_m[kHand] = {0.1 * static_cast<double>(f), 1.0, 2.0};
@@ -139,7 +139,7 @@ TEST(InfluenceFeature, HasTheWayToEachPositionWholeAndFaded) {
   EXPECT_EQ(now.bottomRows(2).norm(), 0.0F);
 }
 
-TEST(InfluenceFeature, GoesBackNoFartherThanIsKnown) {
+TEST(InfluenceFeature, UsesKnownFramesOnly) {
   std::vector<Posture> window(6);
   for (size_t f = 0; f < window.size(); ++f) {
     window[f].position_m[kHand].x() = f < 2 ? 50.0 : 0.1 * static_cast<double>(f);
@@ -149,7 +149,7 @@ TEST(InfluenceFeature, GoesBackNoFartherThanIsKnown) {
   EXPECT_NEAR(feature(0, 3 * 3), -0.3, 1e-6);  // four back is not known: three
 }
 
-TEST(LinearFilter, KnowsNothingOfAJointWithoutTruth) {
+TEST(LinearFilter, HasNoWeightsForJointsWithoutTruth) {
   auto pairs = test::PairsOfPeople(3);
   for (PosturePair& pair : pairs) pair.known[kHand] = pair.known[kOtherHand] = 0.0;
   const LinearFilter filter = LinearFilter::Learn(pairs);
@@ -157,14 +157,14 @@ TEST(LinearFilter, KnowsNothingOfAJointWithoutTruth) {
   EXPECT_TRUE(filter.Knows(LinearFilter::kNow, kHand - 1));
 }
 
-TEST(LinearFilter, KnowsNothingOfFramesThatDoNotFollowEachOther) {
+TEST(LinearFilter, DoesNotLearnFromNonConsecutiveFrames) {
   auto pairs = test::PairsOfPeople(3);
   for (size_t i = 0; i < pairs.size(); ++i) pairs[i].clip = static_cast<int>(i / 5);
   EXPECT_TRUE(LinearFilter::Learn(pairs).empty());
 }
 
 // As recorded by a program that polls faster than its sensor.
-TEST(LinearFilter, LearnsOfFramesThatWereHandedOutTwiceAsOfOthers) {
+TEST(LinearFilter, DuplicatedFramesDoNotChangeWhatIsLearned) {
   std::vector<PosturePair> twice;
   for (const PosturePair& pair : test::PairsOfPeople(3)) twice.insert(twice.end(), 2, pair);
   const LinearFilter filter = LinearFilter::Learn(twice);
@@ -176,7 +176,7 @@ TEST(LinearFilter, LearnsOfFramesThatWereHandedOutTwiceAsOfOthers) {
   }
 }
 
-TEST(LinearFilter, LeavesWhatStandsStillWhereItIs) {
+TEST(LinearFilter, KeepsRestingJoints) {
   const std::vector<Posture> still(LinearFilter::kFrames, test::InFrontOfCamera(test::Motion(1.0)));
   LinearFilter::Steps steps;
   steps.fill(LinearFilter::kSteps);
@@ -187,7 +187,7 @@ TEST(LinearFilter, LeavesWhatStandsStillWhereItIs) {
   }
 }
 
-TEST(LinearFilter, ANeighbourThatIsNotBelievedDoesNotMoveTheJoint) {
+TEST(LinearFilter, UnreliableNeighboursDoNotMoveTheJoint) {
   const test::SeenPerson person = test::Seen(4, LinearFilter::kFrames);
   LinearFilter::Steps steps;
   steps.fill(LinearFilter::kSteps);
@@ -200,7 +200,7 @@ TEST(LinearFilter, ANeighbourThatIsNotBelievedDoesNotMoveTheJoint) {
 }
 
 // Files hold a step of 0.001 s to 1 s.
-TEST(LinearFilter, LearnsNothingOfFramesTooFarApartOrTooNear) {
+TEST(LinearFilter, DoesNotLearnFromUnusualFrameIntervals) {
   for (const double factor : {60.0, 0.01}) {
     auto pairs = test::PairsOfPeople(3);
     for (PosturePair& pair : pairs) pair.time_s *= factor;
@@ -243,7 +243,7 @@ TEST_F(FilterFile, GivesTheSameWeightsBack) {
   }
 }
 
-TEST_F(FilterFile, WithoutInfluencesIsOneThatOlderProgramsRead) {
+TEST_F(FilterFile, WithoutInfluencesHasTheOlderVersion) {
   models_.Save(path_);
   EXPECT_NO_THROW(ReadContainer(path_, {kMagic, 3, "learned reconstruction"}));
   models_.filter = LearnedOfOne();
@@ -258,7 +258,7 @@ TEST_F(FilterFile, WithInfluencesOfTheOtherOutputIsRefused) {
   EXPECT_NE(Refusal().find("filter's weights"), std::string::npos) << Refusal();
 }
 
-TEST_F(FilterFile, OfTheVersionBeforeHasNone) {
+TEST_F(FilterFile, PreviousVersionHasNoFilter) {
   models_.filter = LinearFilter();
   models_.Save(path_);
   auto payload = ReadContainer(path_, {kMagic, 3, "learned reconstruction"});
@@ -268,7 +268,7 @@ TEST_F(FilterFile, OfTheVersionBeforeHasNone) {
   EXPECT_TRUE(LearnedModels::Load(path_).filter.empty());
 }
 
-TEST_F(FilterFile, OfALaterVersionIsRefusedByItsNumber) {
+TEST_F(FilterFile, LaterVersionIsRefusedByItsNumber) {
   models_.Save(path_);
   const auto payload = ReadContainer(path_, {kMagic, 3, "learned reconstruction"});
   WriteContainer(path_, {kMagic, 6, "learned reconstruction"}, payload);

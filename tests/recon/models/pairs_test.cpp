@@ -29,12 +29,12 @@ TEST(AssignFolds, LeavesAPersonOutWithAllPairs) {
   }
 }
 
-TEST(AssignFolds, TakesMorePeopleThanFoldsByTurns) {
+TEST(AssignFolds, DistributesMorePeopleThanFoldsInTurn) {
   const std::vector<int> fold = AssignFolds(PairsOf({0, 1, 2, 3, 4}, 1), 2);
   EXPECT_EQ(fold, (std::vector<int>{0, 1, 0, 1, 0}));
 }
 
-TEST(AssignFolds, OnePersonIsFourBlocksOfTimeWithGapsBetween) {
+TEST(AssignFolds, SplitsOnePersonIntoFourBlocksOfTimeWithGaps) {
   const auto pairs = PairsOf({3}, 400);
   EXPECT_TRUE(OfOnePerson(pairs));
   const std::vector<int> fold = AssignFolds(pairs, 7);
@@ -53,7 +53,7 @@ TEST(AssignFolds, OnePersonIsFourBlocksOfTimeWithGapsBetween) {
   EXPECT_EQ(std::set<int>(fold.begin(), fold.end()), (std::set<int>{kNoFold, 0, 1, 2, 3}));
 }
 
-TEST(AssignFolds, FewPairsAreStillInOrder) {
+TEST(AssignFolds, FewPairsStayInOrder) {
   for (size_t count = 0; count < 9; ++count) {
     std::vector<int> fold = AssignFolds(PairsOf({0}, static_cast<int>(count)), 7);
     EXPECT_EQ(fold.size(), count);

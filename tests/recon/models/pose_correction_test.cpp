@@ -43,17 +43,17 @@ double Left(const PoseCorrection& correction) {
   return after / before;
 }
 
-TEST(PoseCorrection, FindsASystematicErrorOfPosturesItHasNotSeen) {
+TEST(PoseCorrection, CorrectsSystematicErrorsOfUnseenPostures) {
   auto pairs = Pairs(true);
   for (size_t i = 0; i < pairs.size(); ++i) pairs[i].group = static_cast<int>(4 * i / pairs.size());
   EXPECT_LT(Left(PoseCorrection::Learn(pairs)), 0.1);  // a noiseless linear law
 }
 
-TEST(PoseCorrection, BelievesHalfOfWhatHoldsThroughARecordingOfOnePerson) {
+TEST(PoseCorrection, HalvesCorrectionsLearnedFromOnePerson) {
   EXPECT_NEAR(Left(PoseCorrection::Learn(Pairs(true))), 0.5, 0.05);
 }
 
-TEST(PoseCorrection, LeavesAloneWhatHoldsForAPartOfARecordingOnly) {
+TEST(PoseCorrection, IgnoresErrorsOfAPartOfARecording) {
   auto pairs = Pairs(true);
   for (size_t i = pairs.size() / 2; i < pairs.size(); ++i) {
     for (auto& p : pairs[i].residual.position_m) p = -p;
@@ -63,7 +63,7 @@ TEST(PoseCorrection, LeavesAloneWhatHoldsForAPartOfARecordingOnly) {
   EXPECT_LT(correction.Offsets(test::Motion(1.0)).position_m[7].norm(), 0.005);
 }
 
-TEST(PoseCorrection, LeavesASensorAloneWhoseErrorsHaveNoSystem) {
+TEST(PoseCorrection, IgnoresUnsystematicErrors) {
   const PoseCorrection correction = PoseCorrection::Learn(Pairs(false));
   for (int f = 0; f < 20; ++f) {
     // The held-out gain lets through less than a tenth of errors of 5 cm.
@@ -71,7 +71,7 @@ TEST(PoseCorrection, LeavesASensorAloneWhoseErrorsHaveNoSystem) {
   }
 }
 
-TEST(PoseCorrection, HasNobodysPostureInItsCentres) {
+TEST(PoseCorrection, CentresAreNotPosturesOfTheData) {
   const auto pairs = Pairs(true);
   const PoseCorrection correction = PoseCorrection::Learn(pairs);
   // Each is a mean of ten observations or more, and each observation is in one mean at most; every
@@ -87,7 +87,7 @@ TEST(PoseCorrection, HasNobodysPostureInItsCentres) {
   }
 }
 
-TEST(PoseCorrection, LeavesAloneWhatIsOnePersonsOwn) {
+TEST(PoseCorrection, IgnoresErrorsOfASinglePerson) {
   auto pairs = Pairs(true);
   for (size_t i = 0; i < pairs.size(); ++i) {
     PosturePair& pair = pairs[i];
@@ -100,7 +100,7 @@ TEST(PoseCorrection, LeavesAloneWhatIsOnePersonsOwn) {
 }
 
 // The ground truth's hand may be the tip of a stick.
-TEST(LearnedModels, WithABoneThatIsNobodysCanBeRead) {
+TEST(LearnedModels, AcceptImplausibleBones) {
   auto pairs = Pairs(true);
   for (PosturePair& pair : pairs) {
     const Eigen::Vector3d bone_m = pair.observed.position_m[7] - pair.observed.position_m[6];
@@ -115,7 +115,7 @@ TEST(LearnedModels, WithABoneThatIsNobodysCanBeRead) {
   EXPECT_GT(read.proportions[6], 0.5);
 }
 
-TEST(LearnedModels, AreTheSameAfterTheFileAndRefusedWhenCutShort) {
+TEST(LearnedModels, SurviveAFileAndTruncationIsRefused) {
   LearnOptions options;
   options.processes = false;
   const LearnedModels made = LearnedModels::Learn(Pairs(true), options);

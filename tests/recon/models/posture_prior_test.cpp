@@ -62,7 +62,7 @@ TEST(PosturePrior, HasMeanAndCovarianceOfThePosturesAndTheirMirrorImages) {
   EXPECT_LT((prior.modes_m * prior.modes_m.transpose() - covariance).cwiseAbs().maxCoeff(), 1e-7);
 }
 
-TEST(PosturePrior, KeepsItsModesApartALagLater) {
+TEST(PosturePrior, ModesStayUncorrelatedAfterALag) {
   const PriorClip clip = GesturesFor(40.0);
   const PosturePriorOptions options;
   const PosturePrior prior = PosturePrior::Learn({clip}, options);
@@ -91,13 +91,13 @@ TEST(PosturePrior, KeepsItsModesApartALagLater) {
   EXPECT_LT(kept.cwiseAbs().maxCoeff(), 1e-3);
 }
 
-TEST(PosturePrior, OfMotionsShorterThanALagIsRefusedForThat) {
+TEST(PosturePrior, RefusesMotionsShorterThanALag) {
   const std::vector<PriorClip> clips(30, GesturesFor(0.2));
   ossa::test::ExpectRefused([&] { PosturePrior::Learn(clips); },
                             "expected a motion that is longer than 0.33 s");
 }
 
-TEST(PosturePrior, IsTheSameFileEachTimeAndReadsBack) {
+TEST(PosturePrior, FileIsDeterministicAndReadsBack) {
   const ossa::test::TemporaryFolder folder;
   for (const char* name : {"a.ossaprior", "b.ossaprior"}) {
     PosturePrior::Learn({GesturesFor(10.0)}).Save(folder / name);
@@ -112,7 +112,7 @@ TEST(PosturePrior, IsTheSameFileEachTimeAndReadsBack) {
   EXPECT_EQ(bytes("a.ossaprior"), bytes("c.ossaprior"));
 }
 
-TEST(PosturePrior, HoldsNobodysPosture) {
+TEST(PosturePrior, ContainsNoPostureOfTheData) {
   const ossa::test::TemporaryFolder folder;
   const PriorClip clip = GesturesFor(20.0);
   const PosturePrior prior = PosturePrior::Learn({clip});
@@ -140,7 +140,7 @@ TEST(PosturePrior, RefusesDamagedFilesByName) {
   }
 }
 
-TEST(PosturePrior, RefusesNumbersThatNoPriorHas) {
+TEST(PosturePrior, RefusesInvalidNumbers) {
   const ossa::test::TemporaryFolder folder;
   const auto refused = [&](void (*spoil)(PosturePrior&), const char* field) {
     PosturePrior prior = *Learned();
@@ -157,7 +157,7 @@ TEST(PosturePrior, RefusesNumbersThatNoPriorHas) {
   refused([](PosturePrior& p) { p.modes_m.conservativeResize(kBoneDims, 2); }, "modes");
 }
 
-TEST(PosturePrior, NeedsMotion) {
+TEST(PosturePrior, RefusesDataWithoutMotion) {
   PriorClip still;
   still.postures.assign(200, test::Gesture(0.3, 0.3, 0.2));
   EXPECT_THROW(PosturePrior::Learn({still}), InputError);
@@ -224,7 +224,7 @@ BoneVector BruteForce(const PosturePrior& prior, const std::vector<double>& time
   return prior.mean_m + prior.modes_m * u.tail(d);
 }
 
-TEST(PriorFilter, IsTheExactPosteriorOfAllThatWasSeen) {
+TEST(PriorFilter, EqualsTheExactPosterior) {
   const auto prior = Learned();
   const std::vector<double> times_s = {0.0, 0.05, 0.3, 0.9};
   std::vector<PriorObservation> seen;
@@ -250,7 +250,7 @@ TEST(PriorFilter, IsTheExactPosteriorOfAllThatWasSeen) {
   }
 }
 
-TEST(PriorFilter, LetsAHiddenArmGoWithTheOther) {
+TEST(PriorFilter, HiddenArmFollowsTheOther) {
   // People who always move both arms alike, and bend their forearms as they please.
   PriorClip alike;
   for (double t = 0.0; t < 120.0; t += kFrame_s) {
@@ -271,7 +271,7 @@ TEST(PriorFilter, LetsAHiddenArmGoWithTheOther) {
   EXPECT_LT(off_m, 0.15 * held_off_m);
 }
 
-TEST(PriorFilter, MirrorsWhatItIsShownMirrored) {
+TEST(PriorFilter, IsEquivariantUnderMirroring) {
   PriorFilter one(Learned()), other(Learned());
   for (int f = 0; f < 20; ++f) {
     PriorObservation observation = Seeing(test::Motion(f * kFrame_s), 0.01);
@@ -286,7 +286,7 @@ TEST(PriorFilter, MirrorsWhatItIsShownMirrored) {
   }
 }
 
-TEST(PriorFilter, ComesToWhatIsUsualWhenNothingIsSeen) {
+TEST(PriorFilter, ConvergesToTheMeanWithoutObservations) {
   PriorFilter filter(Learned());
   const Posture usual = filter.Step(0.0, Seeing({}, 0.0));
   const double anything_m = filter.Uncertainty_m(Joint::kHandLeft);
@@ -301,7 +301,7 @@ TEST(PriorFilter, ComesToWhatIsUsualWhenNothingIsSeen) {
   EXPECT_NEAR(filter.Uncertainty_m(Joint::kHandLeft), anything_m, 1e-6);
 }
 
-TEST(PriorFilter, GivesEveryoneTheirOwnBones) {
+TEST(PriorFilter, UsesThePersonsBoneLengths) {
   for (const double scale : {0.9 / 1.66, 2.2 / 1.66}) {
     PriorFilter filter(Learned());
     PriorObservation observation = Seeing(Scaled(test::Motion(1.0), scale), 0.002);

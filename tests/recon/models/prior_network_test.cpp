@@ -74,7 +74,7 @@ TEST(PriorNetwork, IsOneRectifiedLayerOfNormalisedInputs) {
   EXPECT_TRUE(said(1e6F).isApprox(said(1.0F + 5.0F / 2.0F)));
 }
 
-TEST(PriorNetwork, IsToldWhatIsSeenHowClearlyAndHowFarFromWhereItIsExpected) {
+TEST(PriorNetwork, InputsAreVisibilityQualityAndInnovation) {
   PriorFilter filter(std::make_shared<PosturePrior>(Learned()));
   const Posture seen = test::Motion(1.0);
   const PriorObservation observation = Seeing(seen);
@@ -96,7 +96,7 @@ TEST(PriorNetwork, IsToldWhatIsSeenHowClearlyAndHowFarFromWhereItIsExpected) {
   EXPECT_EQ(ObservationQuality(0.0), 0.0F);
 }
 
-TEST(PriorNetwork, CorrectsWhatTheFilterExpects) {
+TEST(PriorNetwork, CorrectsTheFiltersPrediction) {
   PosturePrior corrected = Learned();
   corrected.network = HeadForward(0.05);
   PriorFilter without(std::make_shared<PosturePrior>(Learned()));
@@ -112,7 +112,7 @@ TEST(PriorNetwork, CorrectsWhatTheFilterExpects) {
   }
 }
 
-TEST(PriorNetwork, FallsSilentByAndByWhereASensorGuesses) {
+TEST(PriorNetwork, FadesOutForInferredJoints) {
   PosturePrior corrected = Learned();
   corrected.network = HeadForward(0.05);
   PriorFilter without(std::make_shared<PosturePrior>(Learned()));
@@ -138,7 +138,7 @@ TEST(PriorNetwork, FallsSilentByAndByWhereASensorGuesses) {
   EXPECT_LT(correction_m(), 1e-9);
 }
 
-TEST(PriorNetwork, IsKeptInThePriorsFile) {
+TEST(PriorNetwork, SurvivesThePriorsFile) {
   const ossa::test::TemporaryFolder folder;
   const auto bytes = [&](const char* name) {
     std::ifstream in(folder / name, std::ios::binary);
@@ -162,7 +162,7 @@ TEST(PriorNetwork, IsKeptInThePriorsFile) {
   EXPECT_EQ(bytes("with.ossaprior"), bytes("again.ossaprior"));
 }
 
-TEST(PriorNetwork, WithOddNumbersIsRefused) {
+TEST(PriorNetwork, InvalidNumbersAreRefused) {
   const ossa::test::TemporaryFolder folder;
   const auto refused = [&](void (*spoil)(PriorNetwork&), const char* field) {
     PosturePrior prior = Learned();

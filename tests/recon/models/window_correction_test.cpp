@@ -66,23 +66,23 @@ double ErrorLeftOf(const WindowCorrection& correction, double late_s) {
   return after_m / before_m;
 }
 
-TEST(WindowCorrection, KnowsASensorsDelayFromHowThePersonMoved) {
+TEST(WindowCorrection, CorrectsADelayFromPastMotion) {
   const auto correction = WindowCorrection::Learn(MakePairs(0.1, false), Quick());
   ASSERT_FALSE(correction.empty());
   EXPECT_LT(ErrorLeftOf(correction, 0.1), 0.5);
 }
 
-TEST(WindowCorrection, LeavesASensorAloneWhoseErrorsHaveNoSystem) {
+TEST(WindowCorrection, IgnoresUnsystematicErrors) {
   const auto correction = WindowCorrection::Learn(MakePairs(0.0, true), Quick());
   for (const double gain : correction.gains) EXPECT_EQ(gain, 0.0);
 }
 
-TEST(WindowCorrection, IsNotLearnedOfOnePerson) {
+TEST(WindowCorrection, IsNotLearnedFromOnePerson) {
   EXPECT_TRUE(WindowCorrection::Learn(MakePairs(0.1, false, 1), Quick()).empty());
 }
 
 // Training takes a minute; Ctrl-C must stop it earlier.
-TEST(LearnedModels, StopWhileCorrectionsAreLearned) {
+TEST(LearnedModels, LearningCanBeStopped) {
   const std::vector<PosturePair> pairs = MakePairs(0.1, false);
   PoseCorrectionOptions pose;
   WindowCorrectionOptions window = Quick();
@@ -91,7 +91,7 @@ TEST(LearnedModels, StopWhileCorrectionsAreLearned) {
   EXPECT_THROW(WindowCorrection::Learn(pairs, window), TrainInterrupted);
 }
 
-TEST(WindowCorrection, ComesBackFromTheFileTheSame) {
+TEST(WindowCorrection, SurvivesAFile) {
   LearnedModels models;
   models.window = WindowCorrection::Learn(MakePairs(0.1, false), Quick());
   const ossa::test::TemporaryFolder folder;
@@ -106,7 +106,7 @@ TEST(WindowCorrection, ComesBackFromTheFileTheSame) {
   }
 }
 
-TEST(FeatureHistory, TakesWhatIsNearestInTimeToEachLag) {
+TEST(FeatureHistory, TakesTheSampleNearestInTimeForEachLag) {
   FeatureHistory history;
   const auto feature = [](float value) { return Eigen::VectorXf::Constant(1, value); };
   for (int f = 0; f < 10; ++f) history.Add(0.07 * f, feature(static_cast<float>(f)));
@@ -119,7 +119,7 @@ TEST(FeatureHistory, TakesWhatIsNearestInTimeToEachLag) {
 }
 
 // Loggers poll faster than the sensor delivers; only a large step back is another recording.
-TEST(FeatureHistory, KeepsWhatWasBeforeATimeThatIsSaidTwice) {
+TEST(FeatureHistory, RepeatedTimeReplacesTheSample) {
   FeatureHistory history;
   const auto feature = [](float value) { return Eigen::VectorXf::Constant(1, value); };
   for (int f = 0; f < 10; ++f) {

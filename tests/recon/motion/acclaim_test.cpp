@@ -76,7 +76,7 @@ TEST_F(AcclaimTest, DegreesOfFreedomTurnInTheirOrderFirstInnermost) {
   ExpectAlong(Direction(p, Joint::kKneeLeft, Joint::kAnkleLeft), {0, 0, -1});
 }
 
-TEST_F(AcclaimTest, TheRootTurnsAndCarriesEverything) {
+TEST_F(AcclaimTest, RootMovesTheWholeBody) {
   const Posture p =
       StandardPosture(Load(kHeader + "1\nroot 10 15 -3 0 90 0\nltibia 90 0 0\n").frames.at(0));
   ExpectAlong(Direction(p, Joint::kKneeLeft, Joint::kAnkleLeft), {-1, 0, 0});
@@ -96,7 +96,7 @@ TEST_F(AcclaimTest, FramesAt120HertzBecomeThirty) {
   EXPECT_EQ(Load(amc).frames.size(), 31u);
 }
 
-TEST_F(AcclaimTest, TheRateThatNoFileStatesIsSaidOnceOrGiven) {
+TEST_F(AcclaimTest, WarnsOnceOfTheAssumedRateUnlessGiven) {
   std::string amc = kHeader;
   for (int f = 1; f <= 61; ++f) amc += std::to_string(f) + "\nroot 0 15 0 0 0 0\n";
   Write("05.asf", TPoseAsf());
@@ -123,7 +123,7 @@ TEST_F(AcclaimTest, BonesLeftOutOfAFrameStayAsTheyWere) {
               {0, 0, -1});
 }
 
-TEST_F(AcclaimTest, OfSeveralSkeletonsTheOneTheNameBeginsWithServes) {
+TEST_F(AcclaimTest, UsesTheSkeletonWhoseNameIsAPrefix) {
   Write("HDM_bk.asf", TPoseAsf());
   Write("HDM_b.asf", "broken");
   Write("HDM_bk_01-02_03_120.amc", kHeader + kStanding);

@@ -64,7 +64,7 @@ TEST(AuthoredFloor, ElbowsComeNearKneesAndHandsBehindTheBack) {
   EXPECT_LT(Range("arms_behind", behind).first, -0.1);
 }
 
-TEST(AuthoredFloor, WhoTurnsFastTurnsByHalfATurnInASecond) {
+TEST(AuthoredFloor, FastTurnsTakeASecondForHalfATurn) {
   double fastest = 0;
   for (const MotionClip& clip : Clips()) {
     if (!clip.name.starts_with("authored-floor/turn_fast/")) continue;
@@ -77,7 +77,7 @@ TEST(AuthoredFloor, WhoTurnsFastTurnsByHalfATurnInASecond) {
   EXPECT_GT(fastest, 3.1);
 }
 
-TEST(AuthoredFloor, NobodyIsInTheFloorOrInTheAir) {
+TEST(AuthoredFloor, BodiesTouchTheFloorWithoutPenetration) {
   for (const MotionClip& clip : Clips()) {
     for (const RigPose& pose : clip.frames) {
       const Posture p = StandardPosture(pose);
@@ -92,7 +92,7 @@ TEST(AuthoredFloor, NobodyIsInTheFloorOrInTheAir) {
   }
 }
 
-TEST(AuthoredFloor, TheSameSeedGivesTheSameClipsByTheWordOfMocap) {
+TEST(AuthoredFloor, IsLoadedByItsWordAndDependsOnTheSeed) {
   MocapOptions options;
   const auto loaded = LoadMocap({"authored-floor"}, options);
   ASSERT_EQ(loaded.size(), AuthoredFloorActions().size() * 12);

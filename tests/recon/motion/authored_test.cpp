@@ -85,7 +85,7 @@ TEST(AuthoredClips, HaveManyMinutesOfEveryActionOfTheDesign) {
   }
 }
 
-TEST(AuthoredClips, AreTheSameForTheSameSeedAndOthersForAnother) {
+TEST(AuthoredClips, DependOnTheSeedOnly) {
   AuthoredOptions options;
   options.variations = 1;
   const auto a = AuthoredClips(options), b = AuthoredClips(options);
@@ -105,13 +105,13 @@ TEST(AuthoredClips, AreTheSameForTheSameSeedAndOthersForAnother) {
   EXPECT_TRUE(other_differs);
 }
 
-TEST(AuthoredClips, ComeThroughLoadMocapByTheWordAuthored) {
+TEST(AuthoredClips, AreLoadedByTheWordAuthored) {
   const auto clips = LoadMocap({"authored"});
   EXPECT_EQ(clips.size(), Clips().size());
   EXPECT_TRUE(clips.front().name.starts_with("authored/"));
 }
 
-TEST(AuthoredClips, BendElbowsAndKneesOnlyAsFarAsPeopleCan) {
+TEST(AuthoredClips, BendElbowsAndKneesWithinHumanLimits) {
   // Elbow flexion ends near 150 degrees, knee flexion near 145 (American Academy of Orthopaedic
   // Surgeons); 5 degrees more for a straight line between SDK joints that are not the hinge's.
   ForEveryPosture([](const std::string& where, const Posture& p, const MotionClip&, size_t) {
@@ -138,7 +138,7 @@ TEST(AuthoredClips, KneesBendBackwards) {
   });
 }
 
-TEST(AuthoredClips, FeetStayAboveTheFloorAndSomethingStandsOnIt) {
+TEST(AuthoredClips, FeetStayAboveTheFloorAndOneTouchesIt) {
   const Posture rest = StandardPosture(RigPose());
   const double root = StandardRigRest().head_m[0].y();
   ForEveryPosture([&](const std::string& where, const Posture& p, const MotionClip& clip, size_t) {
@@ -197,7 +197,7 @@ TEST(AuthoredClips, StandingFeetDoNotSlide) {
   for (const auto& [name, slide] : slid_m) EXPECT_LT(slide, 0.012) << name;
 }
 
-TEST(AuthoredClips, TheTPoseReallyIsOne) {
+TEST(AuthoredClips, TPoseHasHorizontalArmsAndVerticalLegs) {
   for (const MotionClip& clip : Clips()) {
     if (clip.name.find("t_pose") == std::string::npos) continue;
     double best = 180.0;

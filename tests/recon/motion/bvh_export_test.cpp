@@ -66,7 +66,7 @@ std::string TextOf(const std::filesystem::path& path) {
 }
 
 // All files start with the recording, not with each person's first sighting.
-TEST(BvhExport, OfSeveralPeopleIsInStepWithTheRecording) {
+TEST(BvhExport, FilesOfSeveralPeopleShareTheRecordingsFrames) {
   const ossa::test::TemporaryFolder folder;
   const SkeletonSequence truth = TwoPeople();
   WriteSkeletons(folder / "two.bvh", truth);
@@ -85,7 +85,7 @@ TEST(BvhExport, OfSeveralPeopleIsInStepWithTheRecording) {
 
 // Joints outside the image are not tracked, whatever their position in a file; a method that places
 // them states their reliability.
-TEST(BvhExport, HasJointsThatAreNotTrackedWhereAMethodPlacedThem) {
+TEST(BvhExport, KeepsUntrackedJointsThatAMethodPlaced) {
   for (const bool placed : {false, true}) {
     SkeletonSequence sequence = SeenAt({0.0, 1 / 30.0, 2 / 30.0});
     for (size_t f = 1; f < 3; ++f) {
@@ -113,7 +113,7 @@ TEST(BvhExport, KeepsTheLastFrameWhereTimesAreRounded) {
   EXPECT_EQ(SkeletonToBvh(SeenAt(times_s)).FrameCount(), 2000u);
 }
 
-TEST(BvhExport, OfNobodyIsRefusedByName) {
+TEST(BvhExport, RecordingWithoutBodiesIsRefused) {
   const ossa::test::TemporaryFolder folder;
   SkeletonSequence nobody = SeenAt({0.0, 0.1});
   for (SkeletonFrame& frame : nobody.frames) frame.bodies.clear();
@@ -124,7 +124,7 @@ TEST(BvhExport, OfNobodyIsRefusedByName) {
 }
 
 // Otherwise the result would be a T-pose at the camera.
-TEST(BvhExport, OfABodyWithoutAnyJointIsRefusedByName) {
+TEST(BvhExport, BodyWithoutJointsIsRefused) {
   const ossa::test::TemporaryFolder folder;
   SkeletonSequence unseen = SeenAt({0.0, 0.1});
   for (SkeletonFrame& frame : unseen.frames) frame.bodies[0].joints = {};
@@ -142,7 +142,7 @@ TEST(BvhExport, OfABodyWithoutAnyJointIsRefusedByName) {
 }
 
 // Negative ids are valid and do not mean "the body in most frames".
-TEST(BvhExport, IsOfTheBodyAskedForWhateverItsNumber) {
+TEST(BvhExport, ExportsTheRequestedBody) {
   SkeletonSequence sequence = TwoPeople();
   for (SkeletonFrame& frame : sequence.frames) {
     for (BodyRecord& body : frame.bodies) body.id = body.id == 7 ? -7 : body.id;
@@ -155,7 +155,7 @@ TEST(BvhExport, IsOfTheBodyAskedForWhateverItsNumber) {
   ossa::test::ExpectRefused([&] { SkeletonToBvh(sequence, options); }, "expected body -1");
 }
 
-TEST(BvhExport, WritesTheBytesThatItWouldMakeInMemory) {
+TEST(BvhExport, StreamedFileEqualsTheOneMadeInMemory) {
   const ossa::test::TemporaryFolder folder;
   const SkeletonSequence sequence = SeenAt({3.0, 3.1, 3.3, 13.0});
   WriteSkeletonAsBvh(sequence, folder / "x.bvh");
@@ -166,7 +166,7 @@ TEST(BvhExport, WritesTheBytesThatItWouldMakeInMemory) {
 }
 
 // A gap of a day would need gigabytes of memory and give an unreadable file.
-TEST(BvhExport, ThatNobodyWouldReadIsRefusedByItsLongestGap) {
+TEST(BvhExport, TooLongGapsAreRefusedAndTheLongestIsNamed) {
   const ossa::test::TemporaryFolder folder;
   BvhExportOptions options;
   options.most_bytes = size_t{1} << 20;
@@ -182,7 +182,7 @@ TEST(BvhExport, ThatNobodyWouldReadIsRefusedByItsLongestGap) {
   EXPECT_NO_THROW(write());
 }
 
-TEST(BvhExport, ThatIsSurelyTooLongIsRefusedBeforeItIsMade) {
+TEST(BvhExport, TooManyFramesAreRefusedInAdvance) {
   const ossa::test::TemporaryFolder folder;
   const SkeletonSequence days = SeenAt({0, 86400, 2 * 86400, 3 * 86400});
   ossa::test::ExpectRefused([&] { WriteSkeletons(folder / "x.bvh", days); },

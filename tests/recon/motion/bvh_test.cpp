@@ -35,7 +35,7 @@ TEST(BvhReader, ComposesRotationsInTheOrderOfEachJointsChannels) {
   EXPECT_DOUBLE_EQ(bvh.frame_s, 0.05);
 }
 
-TEST(BvhReader, TakesWindowsLineEndsTabsCaseAndNamesWithBlanks) {
+TEST(BvhReader, AcceptsWindowsLineEndsTabsCaseAndNamesWithBlanks) {
   std::string text =
       "\xEF\xBB\xBFhierarchy\nroot The Hips\n{\n\tOFFSET\t0 0 0\n\tChannels 1 "
       "zRotation\n}\nmotion\nframes: 2\nframe time: 0.1\n5\n\n6\n\n";
@@ -63,7 +63,7 @@ struct BadText {
 
 class DamagedBvh : public testing::TestWithParam<BadText> {};
 
-TEST_P(DamagedBvh, IsRefusedInOneLineThatNamesTheLine) {
+TEST_P(DamagedBvh, IsRefusedInOneLineWithTheLineNumber) {
   std::string text = kTwoJoints;
   const size_t at = text.find(GetParam().cut);
   ASSERT_NE(at, std::string::npos);
@@ -110,14 +110,14 @@ TEST(BvhReader, RefusesEveryTruncationWithoutCrashing) {
   }
 }
 
-TEST(BvhReader, RefusesAMillionNestedJointsWithoutUsingUpTheStack) {
+TEST(BvhReader, RefusesAMillionNestedJointsWithoutStackOverflow) {
   std::string text = "HIERARCHY\nROOT r {\n";
   for (int i = 0; i < 1000000; ++i) text += "JOINT j" + std::to_string(i) + " {\n";
   EXPECT_THROW(ParseBvh(text, "deep.bvh"), InputError);
 }
 
 // Of a recording of hours every number that is kept twice is a gigabyte.
-TEST(BvhReader, KeepsOfALongFileNoMoreThanItsNumbers) {
+TEST(BvhReader, NeedsOnlyTheMemoryOfTheNumbers) {
   std::string text = kTwoJoints;
   text.replace(text.find("Frames: 1\n"), 10, "Frames: 1025\n");
   for (int frame = 1; frame < 1025; ++frame) text += "1 2 3 10 20 30 40 50 60\n";
@@ -126,9 +126,7 @@ TEST(BvhReader, KeepsOfALongFileNoMoreThanItsNumbers) {
   EXPECT_EQ(bvh.values.capacity(), bvh.values.size());
 }
 
-TEST(BvhReader, RefusesAFileThatIsNotThere) {
-  EXPECT_THROW(ReadBvh("/nonexistent/x.bvh"), InputError);
-}
+TEST(BvhReader, RefusesAMissingFile) { EXPECT_THROW(ReadBvh("/nonexistent/x.bvh"), InputError); }
 
 }  // namespace
 }  // namespace ossa::recon

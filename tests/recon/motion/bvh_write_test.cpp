@@ -50,7 +50,7 @@ double WorstDistance_m(const SkeletonSequence& a, const SkeletonSequence& b) {
   return worst;
 }
 
-TEST(SkeletonToBvh, GivesBackEveryJointOfABodyOfConstantBoneLengths) {
+TEST(SkeletonToBvh, ReproducesJointsOfConstantBoneLengths) {
   const SkeletonSequence truth = RandomMotion(20, 5);
   const std::string text = FormatBvh(SkeletonToBvh(truth));
   const SkeletonSequence back = BvhToSkeleton(ParseBvh(text, "back.bvh"), "back.bvh");
@@ -59,7 +59,7 @@ TEST(SkeletonToBvh, GivesBackEveryJointOfABodyOfConstantBoneLengths) {
   EXPECT_LT(WorstDistance_m(truth, back), 1e-6);
 }
 
-TEST(SkeletonToBvh, HasConstantBoneLengthsWhateverTheTrackerSaw) {
+TEST(SkeletonToBvh, HasConstantBoneLengths) {
   SkeletonSequence noisy = RandomMotion(30, 6);
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0.0, 0.02);
@@ -80,7 +80,7 @@ TEST(SkeletonToBvh, HasConstantBoneLengthsWhateverTheTrackerSaw) {
   EXPECT_LT(WorstDistance_m(noisy, back), 0.25);
 }
 
-TEST(SkeletonToBvh, MissingJointsHoldTheirLastDirection) {
+TEST(SkeletonToBvh, MissingJointsKeepTheirLastDirection) {
   SkeletonSequence sequence = RandomMotion(3, 8);
   sequence.frames[1].bodies[0].joints[Joint::kHandLeft].reset();
   const SkeletonSequence back = BvhToSkeleton(SkeletonToBvh(sequence), "back");
@@ -98,7 +98,7 @@ TEST(SkeletonToBvh, GapsInTimeBecomeEvenFrames) {
   EXPECT_EQ(SkeletonToBvh(sequence).FrameCount(), 10u);
 }
 
-TEST(SkeletonToBvh, TakesTheBodyAskedForAndRefusesOneThatIsNotThere) {
+TEST(SkeletonToBvh, ConvertsTheRequestedBodyAndRefusesAMissingOne) {
   BvhExportOptions options;
   options.body_id = 4;
   EXPECT_EQ(SkeletonToBvh(RandomMotion(2, 1), options).FrameCount(), 2u);

@@ -185,7 +185,7 @@ TEST_P(NamesOfStudios, AreKnown) {
 INSTANTIATE_TEST_SUITE_P(Of, NamesOfStudios, testing::ValuesIn(kStudios),
                          [](const auto& info) { return std::string(info.param.name); });
 
-TEST(ForeignBvh, OfAChildKeepsItsSize) {
+TEST(ForeignBvh, ChildKeepsItsSize) {
   FigureStyle style;
   style.units_per_cm = 0.62;
   const auto read = Read(FigureBvh(style));
@@ -198,7 +198,7 @@ struct Unit {
   double units_per_cm;
 };
 
-TEST(ForeignBvh, InAnotherUnitIsReadInItWithAWarning) {
+TEST(ForeignBvh, OtherUnitsAreConvertedWithAWarning) {
   for (const auto& [word, units_per_cm] :
        {Unit{"metres", 0.01}, Unit{"millimetres", 10.0}, Unit{"inches", 1 / 2.54},
         Unit{"the CMU's", 0.45 / 2.54}}) {
@@ -214,14 +214,14 @@ TEST(ForeignBvh, InAnotherUnitIsReadInItWithAWarning) {
   }
 }
 
-TEST(ForeignBvh, WhoseZeroAnglesAreNoPoseHasItsJointsWhereTheyAre) {
+TEST(ForeignBvh, ZeroAnglesWithoutAPoseKeepTheJointPositions) {
   FigureStyle style;
   style.bones_along_x = true;
   ExpectFigure(Read(FigureBvh(style)));
 }
 
 // The floor is where z is 0 and the figure stands along it.
-TEST(ForeignBvh, ThatStandsAlongZIsTurnedUprightWithAWarning) {
+TEST(ForeignBvh, ZUpIsConvertedWithAWarning) {
   FigureStyle style;
   style.file_from_world =
       Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
@@ -231,7 +231,7 @@ TEST(ForeignBvh, ThatStandsAlongZIsTurnedUprightWithAWarning) {
   EXPECT_NE(read.warnings[0].find("z is taken as up"), std::string::npos) << read.warnings[0];
 }
 
-TEST(ForeignBvh, HandsAndSpineLieWhereTheStandardBodyHasThem) {
+TEST(ForeignBvh, HandsAndSpineMatchTheStandardBody) {
   const auto read = Read(FigureBvh());
   const auto& joints = read.frames[0].bodies[0].joints;
   const auto at = [&](Joint j) { return joints[Index(j)]->position_m; };
@@ -244,7 +244,7 @@ TEST(ForeignBvh, HandsAndSpineLieWhereTheStandardBodyHasThem) {
   EXPECT_LT(at(Joint::kSpine).y(), at(Joint::kShoulderCenter).y() - 0.2);
 }
 
-TEST(ForeignBvh, OfTwoRootsIsTwoBodies) {
+TEST(ForeignBvh, TwoRootsAreTwoBodies) {
   FigureStyle other;
   other.names = kStudios[19].names;
   std::string text = "HIERARCHY\n" + test::FigureHierarchy() + test::FigureHierarchy(other) +
@@ -258,7 +258,7 @@ TEST(ForeignBvh, OfTwoRootsIsTwoBodies) {
   ExpectFigure(read, 1);
 }
 
-TEST(ForeignBvh, OfAPersonAndAPropIsThePersonWithAWarning) {
+TEST(ForeignBvh, PropsAreIgnoredWithAWarning) {
   const std::string text = "HIERARCHY\nROOT sword {\nOFFSET 0 0 0\nCHANNELS 1 Xposition\n}\n" +
                            test::FigureHierarchy() + "MOTION\nFrames: 1\nFrame Time: 0.1\n7 " +
                            test::FigureRow(0) + "\n";
@@ -269,7 +269,7 @@ TEST(ForeignBvh, OfAPersonAndAPropIsThePersonWithAWarning) {
   EXPECT_NE(read.warnings[0].find("'sword' is passed over"), std::string::npos);
 }
 
-TEST(ForeignBvh, WithUnknownNamesSaysWhichItHas) {
+TEST(ForeignBvh, UnknownNamesAreListed) {
   FigureStyle style;
   style.names[7] = "Ellbogen links";
   const std::string text = FigureBvh(style);
@@ -305,12 +305,12 @@ class MappedBvh : public testing::Test {
   ossa::test::TemporaryFolder folder_;
 };
 
-TEST_F(MappedBvh, IsReadByBonesOrByJoints) {
+TEST_F(MappedBvh, MapsBonesOrJoints) {
   ExpectFigure(ReadWith(rig_));
   ExpectFigure(ReadWith(sdk_));
 }
 
-TEST_F(MappedBvh, IsRefusedByTheLineOfTheMappingThatNamesNoJoint) {
+TEST_F(MappedBvh, UnknownJointIsRefusedWithTheMappingsLine) {
   ossa::test::ExpectRefused([&] { ReadWith(rig_ + "LeftShoulder = Schulter\n"); },
                             "names.txt: line 19: expected a joint of x.bvh, found 'Schulter'");
   ossa::test::ExpectRefused([&] { ReadWith("Hips = Hips\nLeftElbow = x\n"); }, "names.txt: line 2");
@@ -319,7 +319,7 @@ TEST_F(MappedBvh, IsRefusedByTheLineOfTheMappingThatNamesNoJoint) {
                             "names.txt: expected a line for Spine of x.bvh");
 }
 
-TEST_F(MappedBvh, IsReadByItsOwnNamesWhereTheMappingHasNoneOfThem) {
+TEST_F(MappedBvh, UsesItsOwnNamesIfTheMappingHasNoneOfThem) {
   std::ofstream(folder_ / "names.txt") << "Hips = Huefte\n";
   SkeletonReadOptions options;
   options.mapping_file = folder_ / "names.txt";

@@ -41,7 +41,7 @@ double FarthestApart_m(const MotionClip& a, const MotionClip& b) {
 
 // Compared with the same motion in a file whose zero pose is a T-pose. Limb directions agree; trunk
 // and feet, determined by positions only, differ by a few degrees.
-TEST(ForeignMocap, WhoseZeroAnglesAreNoPoseIsRetargetedByPlaces) {
+TEST(ForeignMocap, ZeroAnglesWithoutAPoseAreRetargetedByPositions) {
   FigureStyle along_x;
   along_x.bones_along_x = true;
   const auto plain = Load({}), odd = Load(along_x);
@@ -50,7 +50,7 @@ TEST(ForeignMocap, WhoseZeroAnglesAreNoPoseIsRetargetedByPlaces) {
   EXPECT_LT(FarthestApart_m(plain[0], odd[0]), 0.08);
 }
 
-TEST(ForeignMocap, WhoseZeroAnglesAreNoPoseBendsAsItDoes) {
+TEST(ForeignMocap, ZeroAnglesWithoutAPoseKeepTheBending) {
   FigureStyle along_x;
   along_x.bones_along_x = true;
   const MotionClip clip = Load(along_x)[0];
@@ -69,20 +69,20 @@ TEST(ForeignMocap, WhoseZeroAnglesAreNoPoseBendsAsItDoes) {
 }
 
 // The rest pose stands along z, the motion along y: exporters turn the root.
-TEST(ForeignMocap, ThatRestsAlongAnotherAxisThanItMovesStands) {
+TEST(ForeignMocap, StandsUprightIfRestAndMotionHaveDifferentAxes) {
   FigureStyle style;
   style.joint_axes = kYToZ.conjugate();
   EXPECT_LT(FarthestApart_m(Load({})[0], Load(style)[0]), 1e-4);
 }
 
-TEST(ForeignMocap, ThatRestsAndMovesAlongZStands) {
+TEST(ForeignMocap, StandsUprightIfRestAndMotionAreZUp) {
   FigureStyle style;
   style.joint_axes = kYToZ.conjugate();
   style.file_from_world = kYToZ;
   EXPECT_LT(FarthestApart_m(Load({})[0], Load(style)[0]), 1e-4);
 }
 
-TEST(ForeignMocap, OfTwoRootsIsTwoClips) {
+TEST(ForeignMocap, TwoRootsAreTwoClips) {
   const ossa::test::TemporaryFolder folder;
   std::string text = "HIERARCHY\n" + test::FigureHierarchy() + test::FigureHierarchy() +
                      "MOTION\nFrames: 3\nFrame Time: 0.0333333\n";
@@ -97,7 +97,7 @@ TEST(ForeignMocap, OfTwoRootsIsTwoClips) {
   EXPECT_LT(FarthestApart_m(clips[0], clips[1]), 1e-12);
 }
 
-TEST(ForeignMocap, OfAPersonAndAPropIsThePersonWithAWarning) {
+TEST(ForeignMocap, PropsAreIgnoredWithAWarning) {
   const ossa::test::TemporaryFolder folder;
   std::ofstream(folder / "x.bvh")
       << "HIERARCHY\nROOT sword {\nOFFSET 0 0 0\nCHANNELS 1 Xposition\n}\n"
@@ -113,7 +113,7 @@ TEST(ForeignMocap, OfAPersonAndAPropIsThePersonWithAWarning) {
       << clips[0].warnings[0];
 }
 
-TEST(ForeignMocap, WhoseSecondPersonHasNoChannelsIsTheFirst) {
+TEST(ForeignMocap, SecondPersonWithoutChannelsIsIgnored) {
   const ossa::test::TemporaryFolder folder;
   std::string still = test::FigureHierarchy();
   for (size_t at = still.find("CHANNELS"); at != std::string::npos;
@@ -132,14 +132,14 @@ TEST(ForeignMocap, WhoseSecondPersonHasNoChannelsIsTheFirst) {
 }
 
 // macOS stores such files beside the actual ones.
-TEST(ForeignMocap, BesideHiddenFilesIsReadAlone) {
+TEST(ForeignMocap, HiddenFilesAreIgnored) {
   const ossa::test::TemporaryFolder folder;
   std::ofstream(folder / "x.bvh") << test::FigureBvh();
   std::ofstream(folder / "._x.bvh") << "Mac OS X";
   EXPECT_EQ(LoadMocap({folder.path().string()}).size(), 1u);
 }
 
-TEST(ForeignMocap, ThatAMappingNamesNothingOfIsSaidTo) {
+TEST(ForeignMocap, UnusedMappingGivesAWarning) {
   const ossa::test::TemporaryFolder folder;
   std::string all = "Hips = Hips\nSpine = Spine\n";
   for (const std::string side : {"Left", "Right"}) {
@@ -159,7 +159,7 @@ TEST(ForeignMocap, ThatAMappingNamesNothingOfIsSaidTo) {
 }
 
 // Interpolated frames would take gigabytes.
-TEST(ForeignMocap, WhoseFrameTimeIsARateIsRefusedBeforeItFillsTheMemory) {
+TEST(ForeignMocap, FrameRateInPlaceOfFrameTimeIsRefused) {
   const ossa::test::TemporaryFolder folder;
   std::string text = test::FigureBvh({.frames = 700});
   text.replace(text.find("0.0333333"), 9, "60");
@@ -170,7 +170,7 @@ TEST(ForeignMocap, WhoseFrameTimeIsARateIsRefusedBeforeItFillsTheMemory) {
 }
 
 // With a wrong mapping (a trunk that rotates like a hand) the result disagrees with the source.
-TEST(ForeignMocap, ThatWouldNotStandAsTheSourceIsRefusedByName) {
+TEST(ForeignMocap, RetargetingThatDoesNotStandIsRefused) {
   const ossa::test::TemporaryFolder folder;
   std::ofstream(folder / "names.txt")
       << "Hips = LeftHand\nSpine = LeftHand\nNeck = Neck\nHead = Head\nLeftArm = LeftArm\n"
@@ -183,7 +183,7 @@ TEST(ForeignMocap, ThatWouldNotStandAsTheSourceIsRefusedByName) {
 }
 
 // People of another corpus, whose bones lie along x, with and without their mapping file.
-TEST(ForeignMocap, OfBandaiNamcoStands) {
+TEST(ForeignMocap, BandaiNamcoClipsStandUpright) {
   const auto folder = ossa::test::SharedFolder() / "mocap/bandai_validation";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   MocapOptions mapped;
@@ -206,7 +206,7 @@ TEST(ForeignMocap, OfBandaiNamcoStands) {
   }
 }
 
-TEST(ForeignMocap, OfBandaiNamcoIsAllTaken) {
+TEST(ForeignMocap, AllBandaiNamcoClipsAreRead) {
   const auto folder = ossa::test::SharedFolder() / "mocap/bandai_validation";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   size_t files = 0;

@@ -76,7 +76,7 @@ TEST(Humanoid3d, KneesBendBackwardsAndElbowsForwards) {
       kPrinted);
 }
 
-TEST(Humanoid3d, DamageIsRefusedByFrameAndPlace) {
+TEST(Humanoid3d, DamageIsRefusedWithFrameAndPlace) {
   const auto refusal = [](const std::string& text) {
     try {
       ParseHumanoid3d(text, "h.txt");

@@ -54,7 +54,7 @@ Eigen::Vector3d Direction(const Posture& p, Joint from, Joint to) {
 // 1e-6: numbers printed with six digits.
 constexpr double kPrinted = 1e-5;
 
-TEST_F(RetargetTest, ATPoseOfTheSourceIsATPoseOfTheRig) {
+TEST_F(RetargetTest, TPoseOfTheSourceIsATPoseOfTheRig) {
   const Posture p = ToPosture(Zeros());
   for (const auto& [from, to, axis] :
        {std::tuple{Joint::kShoulderLeft, Joint::kElbowLeft, Eigen::Vector3d(1, 0, 0)},
@@ -113,7 +113,7 @@ TEST_F(RetargetTest, ChildrenAreCarriedByTheirParents) {
             kPrinted);
 }
 
-TEST_F(RetargetTest, UnitsDoNotMatterAndFeetStandOnTheFloor) {
+TEST_F(RetargetTest, IsIndependentOfUnitsAndPutsFeetOnTheFloor) {
   const Posture p = ToPosture(Zeros());
   // The source's soles are at 90 - 82 - 4 cm: close enough to be set on the floor exactly.
   const double sole =
@@ -155,7 +155,7 @@ TEST_F(TurningArm, IsResampledToThirtyFramesASecondBySlerp) {
 }
 
 // Of 25 frames a second three last as long as three of 30, nearly: they are not the same moments.
-TEST_F(TurningArm, AShortClipOfAnotherRateIsResampledToo) {
+TEST_F(TurningArm, ShortClipsOfOtherRatesAreResampledToo) {
   const MotionClip clip = LoadAtSteps(0.04);
   ASSERT_EQ(clip.frames.size(), 3u);
   EXPECT_NEAR(FirstTurn_deg(clip), 50.0, 1e-3);
@@ -167,7 +167,7 @@ TEST_F(RetargetTest, ClipsKnowTheirNameAndPerformer) {
   EXPECT_EQ(clip.subject, "07");
 }
 
-TEST_F(RetargetTest, UnknownNamesAskForAMappingFile) {
+TEST_F(RetargetTest, UnknownNamesSuggestAMappingFile) {
   std::string text = BvhText({Zeros()});
   text.replace(text.find("lForeArm"), 8, "Elle");
   try {
@@ -179,7 +179,7 @@ TEST_F(RetargetTest, UnknownNamesAskForAMappingFile) {
   }
 }
 
-TEST_F(RetargetTest, AMappingFileNamesTheJointsOfAnyConversion) {
+TEST_F(RetargetTest, MappingFileNamesUnknownJoints) {
   std::string text = BvhText({Zeros()});
   text.replace(text.find("lForeArm"), 8, "Elle links");
   const auto mapping = folder_.path() / "names.txt";

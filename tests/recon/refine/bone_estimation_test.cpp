@@ -16,7 +16,7 @@ using test::Silent;
 using test::SilentAndBoneConditioned;
 using test::StandardBones;
 
-TEST(BoneEstimation, ReadsThePersonAndSaysLogarithmsOverTheStandardBones) {
+TEST(BoneEstimation, PredictsLogarithmsOfRatiosToTheStandardBones) {
   Scene scene;
   scene.input.proposed[Joint::kFootRight] = scene.input.proposed[Joint::kAnkleRight];  // no length
   const auto person = ProposedPerson::Locate(scene.input);
@@ -58,7 +58,7 @@ TEST(BoneEstimation, IsTheMeanOfThePersonAndTheMirrorImage) {
 
 // The head rises by a step for each step of the first bone, the spine; every stage before, and
 // what is said of the bones, is of joints where the others put them.
-TEST(RefinementCascade, StagesAfterTheBonesKnowThem) {
+TEST(RefinementCascade, LaterStagesReadTheBoneLengths) {
   Scene scene;
   RefinementCascade cascade = SilentAndBoneConditioned();
   cascade.bone_conditioned[0][NetworkOf(Joint::kHead)].layers[0].weight(kStageFeatures, 1) = 1.0F;

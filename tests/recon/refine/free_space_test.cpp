@@ -23,7 +23,7 @@ depth::DepthFrame BoardBeforeWall() {
   return frame;
 }
 
-TEST(MoveOutOfFreeSpace, OfWhatIsHiddenOrSeenIsItsOwn) {
+TEST(MoveOutOfFreeSpace, KeepsHiddenAndVisibleJoints) {
   const depth::DepthFrame frame = BoardBeforeWall();
   for (const Eigen::Vector3d& place :
        {Eigen::Vector3d(0.2, 0.0, 2.03), Eigen::Vector3d(0.2, 0.0, 2.8),
@@ -34,7 +34,7 @@ TEST(MoveOutOfFreeSpace, OfWhatIsHiddenOrSeenIsItsOwn) {
 }
 
 // 20 cm beside the board, as far as the board: the nearest place is its edge, and 3 cm within.
-TEST(MoveOutOfFreeSpace, OfAJointInTheAirIsTheNearestSilhouetteAndALimbsBreadthWithin) {
+TEST(MoveOutOfFreeSpace, MovesJointsInFreeSpaceInsideTheNearestSilhouette) {
   const depth::DepthFrame frame = BoardBeforeWall();
   const Eigen::Vector3d floating(-0.2, 0.1, 2.0);
   ASSERT_TRUE(IsInFreeSpace(floating, frame));
@@ -48,19 +48,19 @@ TEST(MoveOutOfFreeSpace, OfAJointInTheAirIsTheNearestSilhouetteAndALimbsBreadthW
 }
 
 // A joint farther than the board moves straight behind it, at its own depth.
-TEST(MoveOutOfFreeSpace, KeepsTheDepthOfWhatIsFartherThanItsCover) {
+TEST(MoveOutOfFreeSpace, KeepsTheDepthOfJointsBehindTheirOccluder) {
   const Eigen::Vector3d hidden = MoveOutOfFreeSpace({-0.1, 0.0, 2.5}, BoardBeforeWall());
   EXPECT_NEAR(hidden.z(), 2.5, 1e-9);
   EXPECT_GT(hidden.x(), 0.0);
 }
 
-TEST(MoveOutOfFreeSpace, OfWhatFloatsBeforeSomethingIsBehindItsSurface) {
+TEST(MoveOutOfFreeSpace, MovesFloatingJointsBehindTheSurface) {
   const Eigen::Vector3d hidden = MoveOutOfFreeSpace({0.2, 0.0, 1.7}, BoardBeforeWall());
   EXPECT_NEAR(hidden.z(), 2.0 + FreeSpaceOptions{}.skin_m, 1e-6);
   EXPECT_NEAR(hidden.x() / hidden.z(), 0.2 / 1.7, 1e-9) << "along its line of sight";
 }
 
-TEST(MoveOutOfFreeSpace, IsUnknownOutsideTheImageWithoutReadingAndOutOfReach) {
+TEST(MoveOutOfFreeSpace, DecidesNothingOutsideTheImageWithoutReadingOrOutOfReach) {
   depth::DepthFrame frame = BoardBeforeWall();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Vector3d far_off(-0.6, 0.0, 2.0), outside(9.0, 0.0, 2.0), behind(0.0, 0.0, -1.0);

@@ -5,7 +5,7 @@
 namespace ossa::recon {
 namespace {
 
-TEST(FusePoses, WeighsEachByTheSquareOfTheErrorThatIsExpectedOfIt) {
+TEST(FusePoses, WeighsByInverseVariance) {
   const FusionOptions options{.sure_m = 0.02, .unsure_m = 0.1, .off_on_real_depth = 2.0};
   Posture joints_m;
   for (Eigen::Vector3d& joint_m : joints_m.position_m) joint_m = {0.0, 0.0, 2.0};
@@ -26,7 +26,7 @@ TEST(FusePoses, WeighsEachByTheSquareOfTheErrorThatIsExpectedOfIt) {
 }
 
 // One estimate has a foot on the desk, the other below the image: their mean is wrong.
-TEST(FusePoses, OfPlacesThatContradictEachOtherTheSurerOneCounts) {
+TEST(FusePoses, UsesTheMoreCertainOfContradictingPositions) {
   const FusionOptions options{
       .sure_m = 0.02, .unsure_m = 0.1, .off_on_real_depth = 1.0, .contradiction = 2.0};
   Posture joints_m;

@@ -37,7 +37,7 @@ const PersonCrop::Cell& At(const PersonCrop& crop, double x_m, double y_m) {
   return crop.cells[static_cast<size_t>(index(y_m) * kCropSide + index(x_m))];
 }
 
-TEST(PersonCrop, CellsAreAsWideOfAnyImage) {
+TEST(PersonCrop, CellSizeIsIndependentOfTheImageSize) {
   for (const int width : {160, 320, 640}) {
     const Scene scene(width, width * 3 / 4);
     const auto crop = PersonCrop::Cut(scene.frame, scene.is_person);
@@ -53,7 +53,7 @@ TEST(PersonCrop, CellsAreAsWideOfAnyImage) {
   }
 }
 
-TEST(PersonCrop, TellsHowFarBehindWhatIsBeforeAndWhereTheImageEnds) {
+TEST(PersonCrop, EncodesBackgroundOccludersAndTheImageBorder) {
   Scene scene(320, 240);
   for (size_t i = 0; i < scene.is_person.size(); ++i) {
     const auto u = static_cast<int>(i) % 320, v = static_cast<int>(i) / 320;
@@ -71,7 +71,7 @@ TEST(PersonCrop, TellsHowFarBehindWhatIsBeforeAndWhereTheImageEnds) {
   EXPECT_EQ(At(*crop, 0.0, 1.15).hidden, kCropTaps);
 }
 
-TEST(PersonCrop, ProjectsToWhereTheSurfaceIsAndBack) {
+TEST(PersonCrop, ProjectionAndBackProjectionAreInverse) {
   const Scene scene(320, 240);
   const auto crop = PersonCrop::Cut(scene.frame, scene.is_person);
   ASSERT_TRUE(crop);
@@ -85,7 +85,7 @@ TEST(PersonCrop, ProjectsToWhereTheSurfaceIsAndBack) {
   EXPECT_LT((crop->BackProject(at_m) - hand_m).norm(), 1e-12);
 }
 
-TEST(PersonCrop, OfNobodyThereIsNone) {
+TEST(PersonCrop, IsEmptyWithoutAPerson) {
   Scene scene(160, 120);
   std::vector<uint8_t> nobody(scene.is_person.size(), 0);
   EXPECT_FALSE(PersonCrop::Cut(scene.frame, nobody));

@@ -22,7 +22,7 @@ using test::SilentLayers;
 
 constexpr Eigen::Index kHead = 5 * static_cast<Eigen::Index>(Index(Joint::kHead));
 
-TEST(PoseNetwork, CellsVoteForPlacesAndSayHowSureTheyAre) {
+TEST(PoseNetwork, CellsVoteForPositionsWithConfidence) {
   auto layers = SilentLayers();
   Eigen::RowVectorXf& votes = layers.back().bias;
   votes.segment<5>(kHead) << 0.0F, 0.5F, 1.0F, -0.5F, std::log(0.5F);
@@ -40,7 +40,7 @@ TEST(PoseNetwork, CellsVoteForPlacesAndSayHowSureTheyAre) {
 }
 
 // Every layer passes on how much surface a cell holds: the head goes where the surface is.
-TEST(PoseNetwork, AJointIsWhereTheCellsThatVoteMostAre) {
+TEST(PoseNetwork, JointIsAtTheCellsWithTheMostVotes) {
   auto layers = SilentLayers();
   const auto centre = [](const Convolution& layer) {
     return layer.size * layer.size / 2 * layer.inputs();
@@ -64,7 +64,7 @@ TEST(PoseNetwork, AJointIsWhereTheCellsThatVoteMostAre) {
   EXPECT_NEAR(pose.joints_m[Joint::kHead].y(), place_m(kRow), 1e-3);
 }
 
-TEST(PoseNetwork, NoJointIsBehindTheCameraOrNowhere) {
+TEST(PoseNetwork, JointsAreFiniteAndInFrontOfTheCamera) {
   auto layers = SilentLayers();
   layers.back().bias[kHead + 3] = -100.0F;
   NetworkPose pose = PoseNetwork(layers, 1, "test").Run(EmptyCrop(2.0));
@@ -77,7 +77,7 @@ TEST(PoseNetwork, NoJointIsBehindTheCameraOrNowhere) {
   EXPECT_LT(pose.error_m[Index(Joint::kHead)], 1e6);
 }
 
-TEST(PoseNetwork, IsKeptInAFile) {
+TEST(PoseNetwork, SurvivesAFile) {
   const ossa::test::TemporaryFolder folder;
   auto layers = SilentLayers();
   for (Convolution& layer : layers) {
@@ -112,7 +112,7 @@ TEST(PoseNetwork, LayersThatDoNotFitTogetherAreRefusedByNumber) {
   ExpectRefused([&] { PoseNetwork(layers, 1, "x.ossanet"); }, "layer 4");
 }
 
-TEST(PoseNetwork, NumbersBeyondAMillionOrNoneAreRefused) {
+TEST(PoseNetwork, NanAndHugeWeightsAreRefused) {
   auto layers = SilentLayers();
   layers[2].weight(1, 1) = std::numeric_limits<float>::quiet_NaN();
   ExpectRefused([&] { PoseNetwork(layers, 1, "x.ossanet"); }, "layer 3: expected numbers");
@@ -122,7 +122,7 @@ TEST(PoseNetwork, NumbersBeyondAMillionOrNoneAreRefused) {
 }
 
 // One field of the payload spoilt at a time.
-TEST(PoseNetwork, AFileWithOddNumbersIsRefusedByTheField) {
+TEST(PoseNetwork, InvalidFieldIsRefusedByName) {
   const ossa::test::TemporaryFolder folder;
   PoseNetwork(SilentLayers(), 1, "test").Save(folder / "a.ossanet");
   const ContainerFormat format = {
@@ -147,7 +147,7 @@ TEST(PoseNetwork, AFileWithOddNumbersIsRefusedByTheField) {
   ExpectRefused([&] { PoseNetwork::FromBytes(longer, "x.ossanet"); }, "x.ossanet");
 }
 
-TEST(PoseNetwork, IsMadeOfTheNumbersOfATrainer) {
+TEST(PoseNetwork, IsBuiltFromTrainedWeights) {
   const auto layers = SilentLayers();
   std::vector<float> numbers;
   for (const Convolution& layer : layers) {

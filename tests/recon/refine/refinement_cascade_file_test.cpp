@@ -19,7 +19,7 @@ using ossa::test::RandomPerceptron;
 using test::Silent;
 using test::SilentAndBoneConditioned;
 
-TEST(RefinementCascade, IsKeptInAFile) {
+TEST(RefinementCascade, SurvivesAFile) {
   const ossa::test::TemporaryFolder folder;
   RefinementCascade cascade = Silent();
   cascade.stages[0][2].layers[0].weight(5, 1) = 0.5F;
@@ -56,7 +56,7 @@ TEST(RefinementCascade, IsKeptInAFile) {
               1.0F, 1.0F / 500.0F);
 }
 
-TEST(RefinementCascade, IsFromAboveWhereTheFileSaysSo) {
+TEST(RefinementCascade, FromAboveIsAPropertyOfTheFile) {
   const ossa::test::TemporaryFolder folder;
   RefinementCascade cascade = Silent();
   for (const bool from_above : {false, true}) {
@@ -73,7 +73,7 @@ TEST(RefinementCascade, IsFromAboveWhereTheFileSaysSo) {
   EXPECT_THROW(RefinementCascade::Load(folder / "odd.ossarefine"), InputError);
 }
 
-TEST(RefinementCascade, KnowsTheForestWhoseJointsItRefines) {
+TEST(RefinementCascade, StoresItsForest) {
   const ossa::test::TemporaryFolder folder;
   RefinementCascade cascade = Silent();
   cascade.forest_checksum = 0x0123456789abcdef;
@@ -140,7 +140,7 @@ TEST_F(EarlierCascadeFiles, WithoutCompressionAreRead) {
   EXPECT_EQ(RefinementCascade::Load(file).bone_conditioned.size(), 1U);
 }
 
-TEST_F(EarlierCascadeFiles, OfTheOldestVersionAreReadAndSavedAgain) {
+TEST_F(EarlierCascadeFiles, OldestSupportedVersionIsReadAndSavedAgain) {
   const RefinementCascade old =
       RefinementCascade::Load(Written(RefinementCascade::kOldestVersion, OldestPayload()));
   EXPECT_EQ(old.measured, 3U);
@@ -149,7 +149,7 @@ TEST_F(EarlierCascadeFiles, OfTheOldestVersionAreReadAndSavedAgain) {
   EXPECT_NO_THROW(RefinementCascade::Load(folder_ / "again.ossarefine"));
 }
 
-TEST_F(EarlierCascadeFiles, BeforeTheOldestVersionAreRefused) {
+TEST_F(EarlierCascadeFiles, OlderThanTheOldestSupportedAreRefused) {
   const auto file = Written(RefinementCascade::kOldestVersion - 1, OldestPayload());
   EXPECT_THROW(RefinementCascade::Load(file), InputError);
 }

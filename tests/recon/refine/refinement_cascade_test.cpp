@@ -25,7 +25,7 @@ std::optional<Posture> JointsOf(const std::optional<RefinedPerson>& refined) {
   return refined ? std::optional(refined->joints_m) : std::nullopt;
 }
 
-TEST(RefinementCascade, SeesHowFarBehindTheJointSurfaceLies) {
+TEST(RefinementCascade, FeatureIsTheDepthBehindTheJoint) {
   Scene scene;
   const auto seen = SampledPerson::Sample(scene.input);
   ASSERT_TRUE(seen);
@@ -37,7 +37,7 @@ TEST(RefinementCascade, SeesHowFarBehindTheJointSurfaceLies) {
   EXPECT_NEAR((seen->frame_from_camera * Eigen::Vector3d::UnitY()).y(), 1.0, 0.1);
 }
 
-TEST(RefinementCascade, TellsWhatIsBesideAndWhatIsHidden) {
+TEST(RefinementCascade, DistinguishesBackgroundAndOcclusion) {
   Scene scene;
   const auto centre = [&] {
     return SampledPerson::Sample(scene.input)->samples[Joint::kHead][kCentre];
@@ -90,7 +90,7 @@ void MirrorInto(const Scene& scene, Scene& mirror) {
   }
 }
 
-TEST(RefinementCascade, OfTheMirrorImageIsTheMirrorImage) {
+TEST(RefinementCascade, IsEquivariantUnderMirroring) {
   Scene scene, mirror;
   MakeAsymmetric(scene);
   MirrorInto(scene, mirror);
@@ -114,7 +114,7 @@ TEST(RefinementCascade, OfTheMirrorImageIsTheMirrorImage) {
   EXPECT_TRUE(ComputeStageFeatures(got, Joint::kHead).allFinite());
 }
 
-TEST(RefinementCascade, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
+TEST(RefinementCascade, MirrorsTheNetworkForTheOtherSide) {
   Scene scene;
   RefinementCascade cascade = Silent();
   cascade.stages[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
@@ -131,7 +131,7 @@ TEST(RefinementCascade, MovesEachJointByItsNetworkAndTheOtherSideInTheMirror) {
   EXPECT_EQ(moved_m(Joint::kSpine).norm(), 0.0);
 }
 
-TEST(RefinementCascade, EachStageBeginsWhereTheOneBeforeItEnded) {
+TEST(RefinementCascade, StagesStartFromThePreviousJoints) {
   Scene scene;
   RefinementCascade cascade = Silent();
   cascade.stages[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.0F, 0.5F, 0.0F);
@@ -163,7 +163,7 @@ TEST(RefinementCascade, EachStageBeginsWhereTheOneBeforeItEnded) {
 
 // The first stage moves the head by little or by more, and of the knees only the one on the side
 // towards which the head moves; the second would move all three by 5 cm.
-TEST(RefinementCascade, JointsThatAStageLeavesAreNotRefinedAgain) {
+TEST(RefinementCascade, JointsSkippedByAStageStayUnrefined) {
   Scene scene;
   const auto moved_m = [&](float by_m, Joint joint) {
     RefinementCascade cascade = Silent();
@@ -192,7 +192,7 @@ TEST(RefinementCascade, JointsThatAStageLeavesAreNotRefinedAgain) {
   EXPECT_GT(moved_m(0.0F, Joint::kKneeRight), 0.05);
 }
 
-TEST(RefinementCascade, MovesNoJointFarAway) {
+TEST(RefinementCascade, BoundsTheMotionOfJoints) {
   Scene scene;
   RefinementCascade cascade = Silent();
   cascade.stages[0][NetworkOf(Joint::kSpine)].layers[1].bias =
@@ -235,7 +235,7 @@ void TurnAboutTheAxis(double angle_rad, Scene* scene) {
   *scene->input.floor << turn * up, 2.5;
 }
 
-TEST(RefinementCascade, FromAboveReadsTheSameHoweverABodyIsTurnedInTheImage) {
+TEST(RefinementCascade, FromAboveIsInvariantUnderRotationInTheImage) {
   Scene scene;
   TurnAboutTheAxis(0.0, &scene);
   const auto first = ProposedPerson::Locate(scene.input);
@@ -274,7 +274,7 @@ TEST(RefinementCascade, FromAboveSamplesTheSameSurfaceOfATurnedImage) {
 }
 
 // Shoulders and hips aligned with the ray: the axes stay level.
-TEST(RefinementCascade, FromAboveABodyThatFacesNowhereKeepsLevelAxes) {
+TEST(RefinementCascade, FromAboveWithoutHeadingKeepsLevelAxes) {
   Scene scene;
   TurnAboutTheAxis(0.0, &scene);
   for (const Joint joint :
@@ -288,7 +288,7 @@ TEST(RefinementCascade, FromAboveABodyThatFacesNowhereKeepsLevelAxes) {
   EXPECT_TRUE(person->frame_from_camera.isApprox(level->frame_from_camera));
 }
 
-TEST(RefinementCascade, FromAboveIsToldWhereTheFloorIsBelowTheBody) {
+TEST(RefinementCascade, FromAboveUsesTheHeightAboveTheFloor) {
   Scene scene;
   TurnAboutTheAxis(1.0, &scene);
   const auto person = ProposedPerson::Locate(scene.input);
@@ -300,7 +300,7 @@ TEST(RefinementCascade, FromAboveIsToldWhereTheFloorIsBelowTheBody) {
   EXPECT_TRUE(mirrored.where_m.isApprox(Eigen::Vector3d(-1, 1, 1).cwiseProduct(person->where_m)));
 }
 
-TEST(RefinementCascade, FromAboveNeedsAFloorAndALevelOneDoesNotReadIt) {
+TEST(RefinementCascade, FromAboveNeedsAFloorAndALevelCascadeIgnoresIt) {
   Scene scene;
   RefinementCascade cascade = Silent();
   cascade.stages[0][NetworkOf(Joint::kHead)].layers[1].bias = Eigen::Vector3f(0.5F, 0.0F, 0.0F);
@@ -323,7 +323,7 @@ TEST(RefinementCascade, FromAboveNeedsAFloorAndALevelOneDoesNotReadIt) {
   EXPECT_FALSE(refiner.Refine(scene.input));
 }
 
-TEST(RefinementCascade, HasNothingToSayOfWhatCannotBeLookedAt) {
+TEST(RefinementCascade, LeavesJointsWithoutSurface) {
   const RefinementCascade cascade = Silent();
   const auto spoiled = [&](void (*spoil)(Scene&)) {
     Scene scene;

@@ -22,7 +22,7 @@ std::array<SurfaceSample, kSurfaceSamples> SamplesOf(const Scene& scene,
   return sampler.Around(joint_m);
 }
 
-TEST(SurfaceSample, HoldsEveryNumber) {
+TEST(SurfaceSample, HasEveryFeature) {
   for (int behind_mm = -300; behind_mm <= 300; ++behind_mm) {
     for (int surface = 0; surface <= kSampleTaps; ++surface) {
       for (int hidden = 0; surface + hidden <= kSampleTaps; ++hidden) {
@@ -40,7 +40,7 @@ TEST(SurfaceSample, HoldsEveryNumber) {
 
 // Left of the middle of the image somebody's surface, right of it the wall a metre behind: the
 // cells in the middle of the grids are half of each.
-TEST(SurfaceSampler, ASilhouetteSharesACell) {
+TEST(SurfaceSampler, CellsAtASilhouetteAreShared) {
   Scene scene;
   scene.frame.camera.cx = (kWidth - 1) / 2.0;
   scene.frame.camera.cy = (kHeight - 1) / 2.0;
@@ -65,7 +65,7 @@ TEST(SurfaceSampler, ASilhouetteSharesACell) {
 }
 
 // Every other column is 4 cm nearer: of the coarser grid a cell is many pixels wide.
-TEST(SurfaceSampler, ACellIsTheMeanOfItsQuarters) {
+TEST(SurfaceSampler, CellIsTheMeanOfItsQuarters) {
   Scene scene;
   scene.frame.camera.fx = scene.frame.camera.fy =
       2.0 * kWall_m / kSurfaceGridSteps_m[1];  // two pixels
@@ -78,7 +78,7 @@ TEST(SurfaceSampler, ACellIsTheMeanOfItsQuarters) {
   EXPECT_EQ(samples[kCoarseCentre].surface(), 1.0F);
 }
 
-TEST(SurfaceSampler, WhatIsTooNearOrOutsideIsHidden) {
+TEST(SurfaceSampler, TooNearOrOutsideIsOccluded) {
   const Scene scene;
   for (const Eigen::Vector3d& joint_m :
        {Eigen::Vector3d(50.0, 0.0, kWall_m), Eigen::Vector3d(0.0, -50.0, kWall_m),
