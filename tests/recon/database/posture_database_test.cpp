@@ -132,7 +132,7 @@ TEST(PostureDatabase, KeepsAddedPosturesThatItsFilterWouldDrop) {
   }
 }
 
-TEST(PostureDatabase, AddingPosturesKeepsTheOthersIndices) {
+TEST(PostureDatabase, AddingPosturesMovesNoOthers) {
   auto db = PostureDatabase::Build(test::GestureClips(), {});
   const auto before = db;
   PostureVector bowed = db.postures().col(0);

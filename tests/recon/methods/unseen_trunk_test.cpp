@@ -130,7 +130,7 @@ TEST_P(UnseenTrunk, StaysWithinReachOfTheMeasuredJoints) {
   }
 }
 
-TEST_P(UnseenTrunk, KeepsTrackedJoints) {
+TEST_P(UnseenTrunk, MovesTrackedJointsLittle) {
   constexpr double kStays_m = 0.15;
   for (size_t f = 0; f < made_.frames.size(); ++f) {
     const BodyRecord& made = made_.frames[f].bodies.at(0);

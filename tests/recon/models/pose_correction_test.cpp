@@ -100,7 +100,7 @@ TEST(PoseCorrection, IgnoresErrorsOfASinglePerson) {
 }
 
 // The ground truth's hand may be the tip of a stick.
-TEST(LearnedModels, AcceptImplausibleBones) {
+TEST(LearnedModels, DropImplausibleBonesAndStayReadable) {
   auto pairs = Pairs(true);
   for (PosturePair& pair : pairs) {
     const Eigen::Vector3d bone_m = pair.observed.position_m[7] - pair.observed.position_m[6];

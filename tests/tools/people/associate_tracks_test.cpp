@@ -95,7 +95,7 @@ class HalfHidden : public testing::Test {
   }
 };
 
-TEST_F(HalfHidden, WalksAsTheKeypointsOnTheBodyDo) {
+TEST_F(HalfHidden, VelocityIsThatOfTheKeypointsOnTheBody) {
   const auto uncovered = [](int f) { return 0.2F - 0.06F * static_cast<float>(f); };
   EXPECT_NEAR(VelocityAfter(uncovered, true).x(), 1.5F, 0.05F);
   EXPECT_LT(VelocityAfter(uncovered, false).x(), 1.2F);  // the visible centroid lags
@@ -147,7 +147,7 @@ TEST_F(Identity, TheLargerOfTwoSegmentsKeepsTheTrack) {
             (std::vector<int>{2, 1}));
 }
 
-TEST_F(Identity, AnotherRoomIsAnotherScene) {
+TEST_F(Identity, NewRoomResetsTheScene) {
   EXPECT_EQ(See(Shot({PersonAt(0, 2.5)}, 0)), std::vector<int>{1});
   CapsuleScene other;
   other.people = {PersonAt(0.1, 2.5)};
@@ -270,7 +270,7 @@ Track UnseenAt(double time_s) {
 }
 
 // Otherwise a static track would count as moving until the time of its last movement comes again.
-TEST(AssociateTracks, WhenTheClockGoesBackNoTrackMovedAfterItWasSeen) {
+TEST(AssociateTracks, BackwardsTimeDoesNotMakeTracksMoveAfterTheirLastSighting) {
   const Track track = UnseenAt(-500.0);
   EXPECT_EQ(track.last_seen_s, -500.0);
   EXPECT_EQ(track.moved_s, -502.0);

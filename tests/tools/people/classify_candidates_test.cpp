@@ -85,7 +85,7 @@ class Halves : public testing::Test {
   Detection upper_, lower_;
 };
 
-TEST_F(Halves, AreMergedIfEitherScoresLikeAPersonWhileBothAreNew) {
+TEST_F(Halves, MergeIfEitherScoresLikeAPersonWhileBothAreNew) {
   EXPECT_TRUE(Tried(0.9, 0.1, 1, false));
   EXPECT_FALSE(Tried(0.5, 0.1, 1, false));
   EXPECT_FALSE(Tried(0.9, 0.1, options_.initiation.early_age + 1, false));
@@ -94,7 +94,7 @@ TEST_F(Halves, AreMergedIfEitherScoresLikeAPersonWhileBothAreNew) {
   EXPECT_FALSE(Tried(0.9, 0.1, 1, false));
 }
 
-TEST_F(Halves, AreTriedAtAnyAgeWhereTheyWouldBeTwoPeopleOneAboveTheOther) {
+TEST_F(Halves, AreTriedAtAnyAgeIfStackedVertically) {
   EXPECT_TRUE(Tried(0.9, 0.8, options_.initiation.early_age + 1, true));
   EXPECT_FALSE(Tried(0.9, 0.1, options_.initiation.early_age + 1, true));
 }

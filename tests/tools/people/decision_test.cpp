@@ -8,7 +8,7 @@
 namespace ossa::people {
 namespace {
 
-TEST(Rules, HaveNamesOfTheirOwnAndTexts) {
+TEST(Rules, HaveUniqueNamesAndTexts) {
   std::set<std::string_view> names;
   for (int i = 0; i < static_cast<int>(Rule::kCount); ++i) {
     names.insert(NameRule(static_cast<Rule>(i)));
@@ -32,17 +32,17 @@ std::vector<Rule> ExcludedBy(const std::vector<tests::Box>& boxes) {
   return rules;
 }
 
-TEST(Decisions, SayThatAThingIsTooSmallForAPerson) {
+TEST(Decisions, SmallObjectIsRejectedAsTooSmall) {
   EXPECT_EQ(ExcludedBy({{{-0.08, -0.1, 2.5}, {0.08, 0.1, 2.6}}}),
             std::vector<Rule>{Rule::kTooSmall});
 }
 
-TEST(Decisions, SayThatAThingIsFurniture) {  // a wardrobe's front
+TEST(Decisions, FurnitureIsRejectedAsFurniture) {  // a wardrobe's front
   EXPECT_EQ(ExcludedBy({{{-0.6, -1.0, 2.5}, {0.6, 0.8, 3.0}}}),
             std::vector<Rule>{Rule::kFurniture});
 }
 
-TEST(Decisions, SayThatAThingIsBackgroundOnceItStoodThereForLong) {
+TEST(Decisions, LongStationaryObjectIsRejectedAsBackground) {
   PeopleOptions options;
   options.trace_surfaces = true;
   PeopleState state;

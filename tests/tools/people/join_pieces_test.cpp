@@ -50,18 +50,18 @@ bool DoMeet(uint16_t lower_mm, uint16_t between_mm) {
          std::ranges::count(meeting[lower], upper) == 1;
 }
 
-TEST(FindAdjacentPieces, AcrossAnOccluderAndItsShadow) {
+TEST(FindAdjacentPieces, SpansAnOccluderAndItsShadow) {
   EXPECT_TRUE(DoMeet(1000, 700));  // an arm
   EXPECT_TRUE(DoMeet(1000, 0));    // no readings
   EXPECT_TRUE(DoMeet(1300, 0));    // a trunk below the arm that occludes its upper half
 }
 
-TEST(FindAdjacentPieces, NotWhereTheRoomShowsBetweenNorFarBehind) {
+TEST(FindAdjacentPieces, DoesNotSpanVisibleBackgroundOrLargeDepthDifferences) {
   EXPECT_FALSE(DoMeet(1000, 2000));
   EXPECT_FALSE(DoMeet(1700, 0));
 }
 
-TEST(FindAdjacentPieces, NotOverMoreThanAnArmHides) {
+TEST(FindAdjacentPieces, DoesNotSpanMoreThanAnArm) {
   const PointGrid grid = Painted({{60, 100, 10, 40, 1000}, {60, 100, 80, 110, 1000}});
   for (const auto& others : FindAdjacentPieces(grid, Pieces(grid), {})) EXPECT_TRUE(others.empty());
 }
@@ -95,7 +95,7 @@ class CutInTwo : public testing::Test {
   int asked_ = 0;
 };
 
-TEST_F(CutInTwo, GrowsByPiecesThatRaiseTheScore) {
+TEST_F(CutInTwo, AddsPiecesThatRaiseTheScore) {
   const auto wholes = Grow();
   ASSERT_FALSE(wholes.empty());
   const Detection& best = *std::ranges::max_element(wholes, {}, GetPersonScore);
@@ -105,7 +105,7 @@ TEST_F(CutInTwo, GrowsByPiecesThatRaiseTheScore) {
             Pieces(Painted({kHead}))[0].cells.size() + Pieces(Painted({kTrunk}))[0].cells.size());
 }
 
-TEST_F(CutInTwo, AloneIsAskedForOnlyWhereTheImageCutsItOff) {
+TEST_F(CutInTwo, SinglePiecesAreClassifiedOnlyAtTheImageBorder) {
   grid_ = Painted({kHead});
   ASSERT_FALSE(IsPersonSized(Pieces(grid_)[0], {}));
   EXPECT_TRUE(Grow().empty());

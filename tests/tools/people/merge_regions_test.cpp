@@ -40,7 +40,7 @@ TEST(MergeByTracks, LeavesARegionBesideWithoutAnOccluderBetween) {
   EXPECT_EQ(BroadBehind({}).size(), 2U);
 }
 
-TEST(FindMainOwner, ARegionWithoutCellsHasNone) {
+TEST(FindMainOwner, RegionWithoutCellsHasNone) {
   EXPECT_EQ(FindMainOwner(Region{}, std::vector<int>{0, 0}, 1), -1);
 }
 

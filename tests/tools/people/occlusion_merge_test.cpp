@@ -33,7 +33,7 @@ class Behind : public testing::Test {
   std::vector<int> nobody_;
 };
 
-TEST_F(Behind, PiecesAtBothSidesOfSomethingNearerAreOne) {
+TEST_F(Behind, MergesPiecesAtBothSidesOfAnOccluder) {
   ASSERT_EQ(pieces_.size(), 2U);
   EXPECT_EQ(MergeBesideOccluder(grid_, pieces_, all_, nobody_, 0).size(), 1U);
 }
@@ -45,7 +45,7 @@ TEST_F(Behind, OwnedRegionsAndBackgroundAreNotMerged) {
   EXPECT_GT(MergeBesideOccluder(grid_, pieces_, all_, nobody_, 1).size(), 1U);
 }
 
-TEST_F(Behind, LegsBelowATableAreMergedWithThePersonAtIt) {
+TEST_F(Behind, MergesLegsBelowATableWithThePersonAtIt) {
   ASSERT_EQ(pieces_.size(), 2U);
   const size_t body = pieces_[0].mean_m.y() > pieces_[1].mean_m.y() ? 0 : 1;
   for (const int cell : pieces_[body].cells) nobody_[static_cast<size_t>(cell)] = 0;
@@ -53,7 +53,7 @@ TEST_F(Behind, LegsBelowATableAreMergedWithThePersonAtIt) {
   for (const int cell : pieces_[1 - body].cells) EXPECT_EQ(nobody_[static_cast<size_t>(cell)], 0);
 }
 
-TEST_F(Behind, ATablesOwnLegsAreTooThin) {
+TEST_F(Behind, TableLegsAreTooThinToMerge) {
   const Region& legs = pieces_[pieces_[0].mean_m.y() < pieces_[1].mean_m.y() ? 0 : 1];
   const int middle = legs.cells[legs.cells.size() / 2] % grid_.width;
   std::vector<int> thin;
@@ -124,7 +124,7 @@ bool IsOccludedWithAGapTo(uint16_t gap_mm) {
   return IsOccludedBetween(grid, depth::MakeRegion(grid, left), depth::MakeRegion(grid, right), {});
 }
 
-TEST(IsOccludedBetween, IsNotWhereTheRoomShowsBehindBoth) {
+TEST(IsOccludedBetween, IsFalseIfTheBackgroundIsVisibleBetween) {
   EXPECT_TRUE(IsOccludedWithAGapTo(0)) << "a shadow";
   EXPECT_TRUE(IsOccludedWithAGapTo(3900)) << "about as far as the farther piece";
   EXPECT_FALSE(IsOccludedWithAGapTo(5500)) << "the wall";
@@ -149,7 +149,7 @@ TEST(IsOneAboveOther, IsHorizontalDistanceAlsoForASensorTiltedDown) {
   EXPECT_FALSE(IsOneAboveOther(grid, trousers, piece(0.6F, 0.2F)));
 }
 
-TEST(MergeBesideOccluder, ThingsSideBySideWithTheWallBetweenThemStayApart) {
+TEST(MergeBesideOccluder, ObjectsWithTheWallBetweenThemStayApart) {
   const CapsuleRender render =
       Shot({}, 0, {{{-0.3, -0.6, 3.0}, {-0.1, 0.2, 3.2}}, {{0.1, -0.6, 3.0}, {0.3, 0.2, 3.2}}});
   const PointGrid grid = GridOf(render);
@@ -190,7 +190,7 @@ Region RegionIn(const PointGrid& grid, const tests::Box& opening) {
   return depth::MakeRegion(grid, std::move(cells));
 }
 
-TEST(MergeBelowOccluder, LegsThatWereTakenAreNoBodyWithLegsOfItsOwn) {
+TEST(MergeBelowOccluder, DoesNotMergeTakenLegsWithABodyThatHasLegs) {
   const tests::Box torso{{-0.3, 0.45, 2.5}, {0.3, 1.05, 3.5}},
       hips{{-0.3, 0, 2.5}, {0.3, 0.25, 3.5}}, shins{{-0.15, -0.35, 2.5}, {0.15, -0.2, 3.5}},
       other{{-1.4, -0.5, 2.5}, {-1.0, 0.8, 3.5}};

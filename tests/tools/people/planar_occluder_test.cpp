@@ -32,7 +32,7 @@ Region RegionOf(const CapsuleRender& render, const PointGrid& grid, bool person)
   return MakeRegion(grid, std::move(cells));
 }
 
-TEST(FitWholePlane, FindsTheBackOfASeatAndNoPerson) {
+TEST(FitWholePlane, FitsASeatbackButNotAPerson) {
   const CapsuleRender render = Shot({SomebodyAt(2.7)}, 0, {SeatBack(0.2)});
   const PointGrid grid = GridOf(render);
   const RoomShape shape = ShapeOf(grid);
@@ -46,7 +46,7 @@ TEST(FitWholePlane, FindsTheBackOfASeatAndNoPerson) {
   EXPECT_FALSE(StandsBehind(GridOf(before), RegionOf(before, GridOf(before), true), *seat));
 }
 
-TEST(ProposeCandidates, TheBackOfASeatIsNotMergedWithThePersonAboveIt) {
+TEST(ProposeCandidates, SeatbackIsNotMergedWithThePersonAboveIt) {
   const CapsuleRender render = Shot({SomebodyAt(2.7)}, 0, {SeatBack(0.27)});
   const Proposed proposed = ProposeAlone(render);
   const Scene& scene = proposed.scene;
@@ -68,7 +68,7 @@ TEST(ProposeCandidates, TheBackOfASeatIsNotMergedWithThePersonAboveIt) {
     EXPECT_EQ(render.person.data[static_cast<size_t>(pixel)], 1);
 }
 
-TEST(FindHeads, AlsoWhereSomethingNearerHidesTheShoulders) {
+TEST(FindHeads, FindsAHeadAboveOccludedShoulders) {
   for (const bool hidden : {true, false}) {
     const CapsuleRender render = Shot({SomebodyAt(2.7)}, 0, {SeatBack(0.32)});
     PointGrid grid = GridOf(render);

@@ -25,7 +25,7 @@ TEST(MeasureCertainty, IsOfTheFiveJointsThatTheNetworkIsSurestOf) {
   EXPECT_NEAR(MeasureCertainty(pose), 2.8, 1e-12);
 }
 
-TEST(ScoreWithPose, GrowsWithBothAndNeitherIsAllThatCounts) {
+TEST(ScoreWithPose, IncreasesWithBothScoresAndNeitherAloneDecides) {
   const double needed = InitiationOptions{}.person_by_pose_score;
   EXPECT_LT(ComputeScoreWithPose(0.5, 2.5), ComputeScoreWithPose(0.6, 2.5));
   EXPECT_LT(ComputeScoreWithPose(0.5, 2.5), ComputeScoreWithPose(0.5, 2.6));

@@ -6,7 +6,7 @@
 namespace ossa::people {
 namespace {
 
-TEST(ProposeCandidates, APersonIsOnePieceWithoutTheRoom) {
+TEST(ProposeCandidates, PersonIsOneRegionWithoutTheRoom) {
   const CapsuleRender render = Shot({PersonAt(0, 2.5)});
   const Proposed proposed = ProposeAlone(render);
   ASSERT_EQ(proposed.candidates.size(), 1U);
@@ -15,11 +15,11 @@ TEST(ProposeCandidates, APersonIsOnePieceWithoutTheRoom) {
   EXPECT_GT(candidate, 0.97);
 }
 
-TEST(ProposeCandidates, AnEmptyRoomHasNone) {
+TEST(ProposeCandidates, EmptyRoomGivesNone) {
   EXPECT_TRUE(ProposeAlone(Shot({})).candidates.empty());
 }
 
-TEST(ProposeCandidates, ATableTopIsNotMergedWithThePersonAtIt) {
+TEST(ProposeCandidates, TableTopIsNotMergedWithThePersonAtIt) {
   const tests::Box top{{-0.7, -0.30, 2.0}, {0.7, -0.25, 2.45}};
   const CapsuleRender render = Shot({PersonAt(0, 2.6)}, 0, {top});
   double best = 0;
@@ -67,7 +67,7 @@ std::vector<float> ReachesFromAbove(const PeopleOptions& options) {
   return reaches_m;
 }
 
-TEST(ProposeCandidates, FromAboveAPersonTouchingALongObjectEndsWithinReach) {
+TEST(ProposeCandidates, FromAboveAPersonTouchingALongObjectIsCutAtReach) {
   PeopleOptions options = PeopleOptionsFromAbove();
   const auto reaches_m = ReachesFromAbove(options);
   ASSERT_EQ(reaches_m.size(), 1U);
@@ -118,7 +118,7 @@ TEST(MergeCandidates, SharesAreWeighedByTheirCells) {
   EXPECT_TRUE(whole.may_return);
 }
 
-TEST(MeetAlongRim, HalvesOfAPersonDoAndPeopleApartDoNot) {
+TEST(MeetAlongRim, IsTrueForHalvesOfAPersonAndFalseForSeparatePeople) {
   const Proposed proposed = ProposeAlone(Shot({PersonAt(-0.6, 2.5), PersonAt(0.6, 2.5)}));
   ASSERT_EQ(proposed.candidates.size(), 2U);
   const Candidate& person = proposed.candidates[0];
@@ -154,7 +154,7 @@ Candidate NewBeside(float apart_m) {
   return {};
 }
 
-TEST(ProposeCandidates, ANewCandidateBesideATrackedPersonMayBePartOfThem) {
+TEST(ProposeCandidates, NewCandidateBesideATrackedPersonMayBeAPartOfIt) {
   EXPECT_EQ(NewBeside(0.4F).foreground_share, 0.0);
   EXPECT_GT(NewBeside(0.9F).foreground_share, 0.9);
   // The centroids are 8 cm of the object and some 20 cm of the person away from their sides.

@@ -19,12 +19,12 @@ BodyMeasures KnownAs(const FrameMeasures& body) {
   return known;
 }
 
-TEST(BodyMeasures, TellAChildFromAnAdult) {
+TEST(BodyMeasures, DistinguishAChildFromAnAdult) {
   EXPECT_GT(CompareMeasures(KnownAs(Adult()), Adult()), 1.0);
   EXPECT_LT(CompareMeasures(KnownAs(Adult()), Child()), -3.0);
 }
 
-TEST(BodyMeasures, SayNothingWhereNothingIsSeenOrAllIsWrong) {
+TEST(BodyMeasures, AreEmptyWithoutOrWithInvalidObservations) {
   EXPECT_EQ(CompareMeasures(KnownAs(Adult()), FrameMeasures{}), 0.0);
   EXPECT_EQ(CompareMeasures(BodyMeasures{}, Adult()), 0.0);
   FrameMeasures absurd = Adult();
@@ -32,13 +32,13 @@ TEST(BodyMeasures, SayNothingWhereNothingIsSeenOrAllIsWrong) {
   EXPECT_GT(CompareMeasures(KnownAs(Adult()), absurd), 0.0);
 }
 
-TEST(BodyMeasures, OfAnOccludedPersonWeighLess) {
+TEST(BodyMeasures, OccludedFramesWeighLess) {
   const BodyMeasures known = KnownAs(Adult());
   EXPECT_LT(CompareMeasures(known, Child()), CompareMeasures(known, Child(), true));
   EXPECT_GT(CompareMeasures(known, Adult()), CompareMeasures(known, Adult(), true));
 }
 
-TEST(BodyMeasures, AreTheMeanOfTheFramesThatShowThem) {
+TEST(BodyMeasures, AverageTheFramesThatShowThem) {
   BodyMeasures known;
   known.Add({1.5F});
   known.Add({});
@@ -71,7 +71,7 @@ double BestOfAllOrders(const std::vector<std::vector<double>>& weight, size_t co
   return best;
 }
 
-TEST(FindBestAssignment, IsAsGoodAsTheBestOfAll) {
+TEST(FindBestAssignment, EqualsTheOptimumOfBruteForce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-2, 3);
   for (const auto& [rows, columns] : {std::pair<size_t, size_t>{1, 1}, {2, 3}, {3, 2}, {3, 4}}) {
@@ -89,7 +89,7 @@ TEST(FindBestAssignment, IsAsGoodAsTheBestOfAll) {
   }
 }
 
-TEST(FindBestAssignment, LeavesOutNegativeWeights) {
+TEST(FindBestAssignment, OmitsNegativeWeights) {
   EXPECT_EQ(FindBestAssignment({{-1, -0.5}}, 2), std::vector<int>{-1});
   EXPECT_EQ(FindBestAssignment({{5, 4}, {4.5, 0}}, 2),
             (std::vector<int>{1, 0}));  // not the 5 first
@@ -111,7 +111,7 @@ class Lost : public testing::Test {
   FrameMeasures body_{};
 };
 
-TEST_F(Lost, AWalkerReturnsFartherOn) {
+TEST_F(Lost, WalkerReturnsFartherAlongThePath) {
   EXPECT_LT(Ratio(1.7F, 1.2, Entrance::kOpen), 0.0);
   track_.velocity_m_s = {1.4F, 0, 0};
   track_.velocity_frames = 1;
@@ -122,18 +122,18 @@ TEST_F(Lost, AWalkerReturnsFartherOn) {
   EXPECT_LT(Ratio(-1.7F, 1.2, Entrance::kOpen), 0.0);
 }
 
-TEST_F(Lost, APersonFromBehindAnotherInTheOpenIsALostOne) {
+TEST_F(Lost, PersonAppearingFromBehindAnotherIsALostTrack) {
   EXPECT_GT(Ratio(1.2F, 1.2, Entrance::kBehind), 0.0);
   EXPECT_LT(Ratio(1.2F, 1.2, Entrance::kBorder), 0.0);
 }
 
-TEST_F(Lost, ATrackNotLostBehindAnotherHardlyReturnsFromBehind) {
+TEST_F(Lost, TrackNotLostBehindAnotherHardlyReturnsFromBehind) {
   const double went_behind = Ratio(1.2F, 1.2, Entrance::kBehind);
   track_.lost_behind = false;
   EXPECT_LT(Ratio(1.2F, 1.2, Entrance::kBehind), went_behind - 1.0);
 }
 
-TEST_F(Lost, AnotherBodyAtTheSamePlaceIsAnotherPerson) {
+TEST_F(Lost, DifferentBodyAtTheSamePlaceIsAnotherPerson) {
   track_.measures = KnownAs(Adult());
   body_ = Adult();
   EXPECT_GT(Ratio(0.3F, 1.2, Entrance::kOpen), 0.0);
@@ -162,7 +162,7 @@ Entrance FindEntranceOfFarther(double x_m) {
   return FindEntrance(grid, cells, z_m, person_of, 1);
 }
 
-TEST(FindEntrance, IsBehindAtAPersonsSilhouetteAndElsewhereOpenOrTheBorder) {
+TEST(FindEntrance, DistinguishesBehindAPersonOpenAndTheBorder) {
   EXPECT_EQ(FindEntranceOfFarther(-0.2), Entrance::kBehind);
   EXPECT_EQ(FindEntranceOfFarther(-1.0), Entrance::kOpen);
   EXPECT_EQ(FindEntranceOfFarther(-1.8), Entrance::kBorder);

@@ -10,7 +10,7 @@
 namespace ossa::people {
 namespace {
 
-TEST(SplitBySeeds, EntersTheBackgroundByARimOnly) {
+TEST(SplitBySeeds, ExtendsIntoTheBackgroundByARimOnly) {
   const std::vector<tests::Box> stool = {{{0.1, -1.0, 2.45}, {0.45, -0.4, 2.8}}};
   const CapsuleRender render = Shot({PersonAt(0, 2.5)}, 0, stool);
   const PointGrid grid = GridOf(render), empty = GridOf(Shot({}));
@@ -60,7 +60,7 @@ std::vector<float> Ways_m(const PointGrid& grid, const std::vector<uint8_t>& mem
   return way_m;
 }
 
-TEST(SplitBySeeds, GivesEachCellToTheSeedOfTheShortestWay) {
+TEST(SplitBySeeds, AssignsCellsToTheSeedWithTheShortestPath) {
   const PointGrid grid = GridOf(Shot({PersonAt(-0.25, 2.5), PersonAt(0.2, 2.4)}));
   std::vector<uint8_t> member(static_cast<size_t>(grid.cells()), 0);
   std::vector<int> all;
@@ -86,7 +86,7 @@ TEST(SplitBySeeds, GivesEachCellToTheSeedOfTheShortestWay) {
   }
 }
 
-TEST(FindHeads, IsWhereTheHeadIs) {
+TEST(FindHeads, FindsTheHead) {
   const CapsuleRender render = Shot({PersonAt(0.2, 2.5)});
   const Proposed proposed = ProposeAlone(render);
   ASSERT_EQ(proposed.candidates.size(), 1U);

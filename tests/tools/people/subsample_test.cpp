@@ -16,7 +16,7 @@ depth::DepthFrame Numbered(int width, int height) {
   return frame;
 }
 
-TEST(Subsample, TakesEverySecondPixelOfEverySecondRow) {
+TEST(Subsample, KeepsEverySecondPixelOfEverySecondRow) {
   const depth::DepthFrame frame = Numbered(7, 5);  // odd: the last ones count, too
   std::vector<int32_t> all(frame.pixel_count());
   std::iota(all.begin(), all.end(), 0);
@@ -33,7 +33,7 @@ TEST(Subsample, TakesEverySecondPixelOfEverySecondRow) {
   }
 }
 
-TEST(Subsample, PointsStayWhereTheyAre) {
+TEST(Subsample, PointsStayInPlace) {
   const depth::DepthFrame frame = Numbered(8, 6);
   const Subsampled small = Subsample(frame, std::vector<int32_t>{4 * 8 + 6}, 2);
   ASSERT_EQ(small.pixels, (std::vector<int32_t>{2 * 4 + 3}));
@@ -42,7 +42,7 @@ TEST(Subsample, PointsStayWhereTheyAre) {
                   .isApprox(depth::BackProject(frame.camera, 6, 4, mm), 1e-9));
 }
 
-TEST(Subsample, OthersPixelsReadNothing) {
+TEST(Subsample, PixelsOfOthersBecomeNoReading) {
   const depth::DepthFrame frame = Numbered(8, 6);
   const Subsampled small = Subsample(frame, std::vector<int32_t>{0, 1, 8, 2 * 8 + 2, 3 * 8 + 3}, 2);
   EXPECT_EQ(small.pixels, (std::vector<int32_t>{0, 4 + 1}));

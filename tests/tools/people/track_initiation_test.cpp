@@ -66,7 +66,7 @@ TEST_F(NewPerson, IsAcceptedAtOnceInAFreshSceneAndElsewhereAfterThreeConfidentFr
 }
 
 // The head's shape is not used then.
-TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
+TEST_F(NewPerson, PoseNetworkDecidesIfItWasRun) {
   const auto by_pose = [](double score, bool has_head) {
     return Observation{
         .score = score, .has_head = has_head, .verifier = Verifier::kForestAndNetwork};
@@ -86,7 +86,7 @@ TEST_F(NewPerson, IsJudgedByThePoseNetworkWhereItWasAsked) {
   EXPECT_TRUE(NeedsSurfaceCheck(contested, options_));
 }
 
-TEST_F(NewPerson, ThatIsAPieceIsOneUnlessThePoseNetworkSaysOtherwise) {
+TEST_F(NewPerson, PieceIsAPersonUnlessThePoseNetworkRejectsIt) {
   std::vector<TentativeTrack> tentative;
   const auto is_one = [&](const Observation& look) {
     Detection piece = Detect(look);
@@ -161,7 +161,7 @@ TEST_F(NewPerson, ThatBendsDownIsKeptOnlyAsALongLivedTrack) {
 }
 
 // The threshold is higher for young tracks, and highest for those that never moved.
-TEST_F(NewPerson, GoesOnByAScoreThatFallsWithAgeUnlessTheyNeverMoved) {
+TEST_F(NewPerson, ThresholdFallsWithAgeUnlessThePersonNeverMoved) {
   struct Case {
     int age;
     bool moved;
@@ -198,7 +198,7 @@ size_t CountThings(const TentativeTrack& before, Detection now, double later_s) 
   return known.size();
 }
 
-TEST_F(NewPerson, IsTheOneAStepAwayOnlyIfThatCameTooAMomentAgo) {
+TEST_F(NewPerson, NearbyNewForegroundCountsAsTheSamePerson) {
   TentativeTrack came;
   came.mean_m = {0.2F, 0, 3};
   came.is_foreground = true;
@@ -213,7 +213,7 @@ TEST_F(NewPerson, IsTheOneAStepAwayOnlyIfThatCameTooAMomentAgo) {
   EXPECT_EQ(CountThings(came, now, 0.1), 2U);
 }
 
-TEST_F(NewPerson, WithALowScoreIsTentativeByTheRuleThatNamesTheThreshold) {
+TEST_F(NewPerson, LowScoreIsTentativeByTheThresholdRule) {
   EXPECT_EQ(AcceptedIn(1, false, [](int) { return Observation{0.95}; }), -1);
   EXPECT_EQ(rule_, Rule::kFirstLook);
   EXPECT_EQ(AcceptedIn(2, false, [](int) { return Observation{0.95}; }), -1);
@@ -222,7 +222,7 @@ TEST_F(NewPerson, WithALowScoreIsTentativeByTheRuleThatNamesTheThreshold) {
   EXPECT_EQ(rule_, Rule::kLowMeanScore);
 }
 
-TEST_F(NewPerson, IsNoBoardThatScoresLow) {
+TEST_F(NewPerson, LowScoringBoardIsRejected) {
   Detection board = Detect(Observation{0.3});
   board.candidate.plane = FlatPlane{0, 0, 0.4};
   std::vector<TentativeTrack> tentative;
@@ -231,7 +231,7 @@ TEST_F(NewPerson, IsNoBoardThatScoresLow) {
   EXPECT_EQ(board.decision.needed_score, options_.new_person_score);
 }
 
-TEST_F(NewPerson, BeyondTheMostUsersIsLeftOutByThatRule) {
+TEST_F(NewPerson, BeyondTheMaximumIsRejectedByThatRule) {
   options_.max_users = 2;
   std::vector<Detection> detections;
   for (const double score : {0.95, 0.97, 0.99}) detections.push_back(Detect(Observation{score}));
@@ -277,7 +277,7 @@ TEST(SelectCandidates, RejectedCandidatesAreClassifiedAgainOnlyLater) {
 
 // Three rejected at once: one is classified per frame, the one that waited longest, and none twice
 // before the others; none is deleted earlier.
-TEST(SelectCandidates, OfSeveralThatScoredLowOneIsClassifiedAFrame) {
+TEST(SelectCandidates, ClassifiesOneLowScoringCandidatePerFrame) {
   std::vector<Candidate> candidates(3);
   std::vector<TentativeTrack> tentative(3);
   for (int i = 0; i < 3; ++i) {
@@ -301,7 +301,7 @@ TEST(SelectCandidates, OfSeveralThatScoredLowOneIsClassifiedAFrame) {
 }
 
 // A camera with a low frame rate: none waits for more than twice as long.
-TEST(SelectCandidates, NothingThatScoredLowWaitsForLong) {
+TEST(SelectCandidates, LowScoringCandidatesAreClassifiedWithinABound) {
   std::vector<Candidate> candidates(3);
   std::vector<TentativeTrack> tentative(3);
   for (int i = 0; i < 3; ++i) {
@@ -326,7 +326,7 @@ TEST(SelectCandidates, TentativeTracksSurviveTimestampJitter) {
   }
 }
 
-TEST(SelectCandidates, TheLargestAreClassifiedWhereThereAreTooMany) {
+TEST(SelectCandidates, ClassifiesTheLargestIfThereAreTooMany) {
   PeopleOptions options;
   options.classification.max_candidates = 1;
   Candidate large, small;
@@ -353,7 +353,7 @@ TEST_F(NewPerson, IsVerifiedByTheSurfaceFitIfOneFrameLeavesDoubt) {
   EXPECT_FALSE(is_doubtful(Observation{0.7, 0, 1.0}, false));  // it entered a known room
 }
 
-TEST(Withdrawal, LeavesNoTrackAndNoPixels) {
+TEST(Withdrawal, RemovesTrackAndPixels) {
   PeopleState state;
   state.tracks.tracks.resize(2);
   state.tracks.tracks[0].id = 1;
@@ -378,7 +378,7 @@ TEST(Withdrawal, LeavesNoTrackAndNoPixels) {
 }
 
 // A person accepted in the same frame keeps their id, and the next one has another.
-TEST(Withdrawal, LeavesOthersTheirIds) {
+TEST(Withdrawal, KeepsTheIdsOfOthers) {
   PeopleState state;
   state.tracks.tracks.resize(2);
   state.tracks.tracks[0].id = 1;

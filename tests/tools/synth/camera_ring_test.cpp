@@ -45,7 +45,7 @@ TEST(PlaceCameras, SpreadsThemEvenlyOnTheSideThatThePersonFaces) {
   }
 }
 
-TEST(PlaceCameras, StepsBackFromWhoeverStandsBeforeThem) {
+TEST(PlaceCameras, MovesBackFromPeopleInTheWay) {
   const std::vector<Eigen::Vector3d> ring = {
       Eigen::Vector3d::Zero(), {2.5, 0, 0}, {2.0, 0, 1.5}, {2.0, 0, -1.5}};
   for (uint64_t seed = 1; seed <= 20; ++seed) {
@@ -58,7 +58,7 @@ TEST(PlaceCameras, StepsBackFromWhoeverStandsBeforeThem) {
   }
 }
 
-TEST(FrameMaker, SeesTheSamePeopleFromEachCamera) {
+TEST(FrameMaker, RendersTheSamePeopleForEachCamera) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   FrameOptions options;
   options.width = 64;

@@ -47,7 +47,7 @@ class Frames : public ::testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(Frames, OfSeedsThatDifferInTheirHighestBitsDiffer) {
+TEST_P(Frames, HighBitsOfTheSeedCount) {
   const auto shoot = [](uint64_t seed) { return RenderFrame(GetParam(), 0, seed).depth.depth_mm; };
   EXPECT_NE(shoot(3), shoot(3 + (uint64_t{1} << 61U)));
 }
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
              }}),
     [](const auto& info) { return info.param.name; });
 
-TEST_F(Frames, OfTheirOwnCamerasRememberHowLargeTheyWereWhole) {
+TEST_F(Frames, FramesWithOwnCamerasKeepTheUncroppedSize) {
   const Case any{"any", [](FrameOptions& o) { o.cameras = Cameras::kAny; }};
   for (int64_t index = 0; index < 4; ++index) {
     const LabelledFrame frame = RenderFrame(any, index);

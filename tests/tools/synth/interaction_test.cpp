@@ -31,7 +31,7 @@ Staged Stage(Interaction interaction, uint64_t seed) {
   return staged;
 }
 
-TEST(Interaction, HandsComeBeforeTheChestAndAThingIsBetweenThem) {
+TEST(Interaction, HeldUpObjectIsBetweenTheHandsInFrontOfTheChest) {
   int between = 0;
   for (uint64_t seed = 0; seed < 20; ++seed) {
     const Staged staged = Stage(Interaction::kHeldUp, seed);
@@ -65,7 +65,7 @@ TEST(Interaction, ForearmsLieOnTheDesk) {
   }
 }
 
-TEST(Interaction, WhoLiesHoldsNothingUp) {
+TEST(Interaction, LyingPersonHoldsNothingUp) {
   Random random(1, 1);
   recon::RigPose pose;
   const Eigen::Quaterniond back(Eigen::AngleAxisd(-1.57, Eigen::Vector3d::UnitX()));
@@ -75,7 +75,7 @@ TEST(Interaction, WhoLiesHoldsNothingUp) {
   EXPECT_TRUE(pose.world_from_rest[20].isApprox(before.world_from_rest[20]));
 }
 
-TEST(Interaction, IsAskedForByNameAndLeavesTheOldOccludersAlone) {
+TEST(Interaction, IsRequestedByNameAndDoesNotChangeOtherOccluders) {
   Random random(1, 1);
   EXPECT_EQ(DrawInteraction(*OccludersFromName("held-up"), random), Interaction::kHeldUp);
   for (const char* name : {"none", "held", "scene", "any"}) {

@@ -8,7 +8,7 @@
 namespace ossa::tools {
 namespace {
 
-TEST(MotionTerms, AreTheCmusOfAFolderThatIsCalledSo) {
+TEST(MotionTerms, FolderNamedCmuHasItsTerms) {
   for (const std::string source :
        {"cmu", "mocap/cmu30", "mocap/cmu30/", "./cmu_bvh", "cmu/05_03.bvh"}) {
     EXPECT_NE(ListTerms(std::array{source}).at(1).find("NSF EIA-0196217"), std::string::npos)
@@ -17,7 +17,7 @@ TEST(MotionTerms, AreTheCmusOfAFolderThatIsCalledSo) {
 }
 
 // Somebody's own recordings in a folder of a folder that is called after the CMU.
-TEST(MotionTerms, OfAnyOtherFolderAreThatFolders) {
+TEST(MotionTerms, OtherFoldersHaveNoKnownTerms) {
   for (const std::string source : {"cmu_lab/mine", "/home/cmu/studio/", "my-cmu-like", "."}) {
     EXPECT_EQ(ListTerms(std::array{source}).at(1),
               "motion " + source + ": see the terms of that folder");

@@ -18,7 +18,7 @@ namespace {
 
 using recon::Joint;
 
-TEST(Accessories, AHatIsTheUpperHeadsLeftAndRightHalfAndABagIsAnObject) {
+TEST(Accessories, HatHasTheUpperHeadsLabelsAndABagIsAnObject) {
   recon::RigPose pose;
   pose.root_m = recon::StandardRigRest().head_m[0];
   const recon::Posture joints = recon::StandardPosture(pose);
@@ -43,7 +43,7 @@ TEST(Accessories, AHatIsTheUpperHeadsLeftAndRightHalfAndABagIsAnObject) {
   EXPECT_LT(farthest_back_m, joints[Joint::kSpine].z() - 0.2);
 }
 
-TEST(Nobodies, AreBackgroundAndLeaveThePersonsPlaceFree) {
+TEST(Distractors, AreBackgroundAndLeaveThePersonsPlaceFree) {
   for (uint64_t seed = 0; seed < 30; ++seed) {
     Random random(seed, 1);
     const auto props = SampleDistractors(Eigen::Isometry3d::Identity(), random);
@@ -61,7 +61,7 @@ TEST(Nobodies, AreBackgroundAndLeaveThePersonsPlaceFree) {
   }
 }
 
-TEST(RandomPosture, KeepsToTheLimitsOfElbowsAndKneesAndStandsOnTheFloor) {
+TEST(RandomPosture, KeepsJointLimitsAndTouchesTheFloor) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     Random random(seed, 1);
     const recon::Posture p = recon::StandardPosture(RandomPosture(random));
@@ -97,7 +97,7 @@ recon::RigPose Standing() {
   return pose;
 }
 
-TEST(Wheelchair, SeatsWhoStoodAndHasASeatWheelsAndFootplatesUnderThem) {
+TEST(Wheelchair, SeatsThePersonAboveSeatWheelsAndFootplates) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed, 1);
     recon::RigPose pose = Standing();
@@ -128,7 +128,7 @@ TEST(Wheelchair, SeatsWhoStoodAndHasASeatWheelsAndFootplatesUnderThem) {
   }
 }
 
-TEST(Crutches, ReachFromTheFloorToTheHandsThatHoldThem) {
+TEST(Crutches, ReachFromTheFloorToTheHands) {
   int two = 0;
   for (uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed, 1);
@@ -176,7 +176,7 @@ TEST(Gloves, ThickenHandsAndWristsOnly) {
   EXPECT_NEAR(moved_m / hands, 0.01, 0.003);
 }
 
-TEST(HangingClothes, StandOffFromTheWaistAndLeaveTheRestAsItWas) {
+TEST(HangingClothes, WidenTheWaistOnly) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const recon::BodyModel model = LoadFetchedBody();
   const recon::Wardrobe wardrobe(model);

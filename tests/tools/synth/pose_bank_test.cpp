@@ -15,7 +15,7 @@ const std::vector<recon::MotionClip>& Clips() {
   return clips;
 }
 
-TEST(PoseBank, HasNaturalPosesAsOftenAsTheyAreTaken) {
+TEST(PoseBank, NaturalPosesHaveTheirFrequencyInTheMotion) {
   const auto& clips = Clips();
   size_t frames = 0;
   for (const auto& clip : clips) frames += clip.frames.size();
@@ -44,7 +44,7 @@ TEST(PoseBank, VariesNaturalPosesLittle) {
   EXPECT_GT(farthest_m(Poses::kSpread), 0.2);
 }
 
-TEST(PoseBank, KnowsItsKindsByName) {
+TEST(PoseBank, ParsesItsNames) {
   EXPECT_EQ(PosesFromName("natural"), Poses::kNatural);
   EXPECT_EQ(PosesFromName("spread"), Poses::kSpread);
   EXPECT_FALSE(PosesFromName("Natural"));

@@ -9,7 +9,7 @@
 namespace ossa::tools {
 namespace {
 
-TEST(Props, HeldThingsAreAtAHandAndRoomsAreBackground) {
+TEST(Props, HeldObjectsAreAtAHandAndRoomsAreBackground) {
   Random random(4, 0);
   recon::Posture joints;
   for (auto& joint_m : joints.position_m) joint_m = {0.0, 1.0, 0.0};
@@ -51,7 +51,7 @@ Eigen::AlignedBox3f BoxOf(const depth::TriangleMesh& mesh) {
 
 // What the numbers of a seed mean is fixed, so that every compiler renders the same data set. Those
 // of a chair, a sofa and a cupboard come from back to front, as they always did.
-TEST(Furniture, DrawsItsSizesInOneOrder) {
+TEST(Furniture, DrawsItsSizesInAFixedOrder) {
   for (uint64_t seed = 0; seed < 100; ++seed) {
     Random random(seed, 0), same(seed, 0);
     const auto draw = [&same](double low, double high) {
@@ -85,7 +85,7 @@ TEST(Furniture, DrawsItsSizesInOneOrder) {
   }
 }
 
-TEST(LastingProps, AreTheSameWhereverThePersonIsOnThePath) {
+TEST(LastingProps, AreTheSameForEveryFrameOfThePath) {
   const Eigen::Isometry3d camera = LookAt({0, 1, 3}, {0, 1, 0});
   // The hands are near each other at first and far apart later.
   const std::vector<recon::Posture> path = {At(0.0, 0.2), At(0.3, 0.7), At(0.6, 0.3)};
@@ -98,7 +98,7 @@ TEST(LastingProps, AreTheSameWhereverThePersonIsOnThePath) {
   }
 }
 
-TEST(LastingProps, WhatStandsStandsBeforeThePersonWhereverOnThePath) {
+TEST(LastingProps, OccludersAreInFrontOfThePersonAlongThePath) {
   const Eigen::Isometry3d camera = LookAt({0, 1, 3}, {0, 1, 0});
   std::vector<recon::Posture> path = {At(0, 0.3), At(0, 0.3)};
   for (auto& joint_m : path[1].position_m) joint_m.z() += 1.0;  // a metre nearer
@@ -112,7 +112,7 @@ TEST(LastingProps, WhatStandsStandsBeforeThePersonWhereverOnThePath) {
   }
 }
 
-TEST(Carried, AThingGoesAlongWithTheHandThatHoldsItAndStaysStiff) {
+TEST(Carried, PropMovesRigidlyWithItsHand) {
   const std::vector<recon::Posture> path = {At(0, 0.6), At(1.0, 0.6)};
   for (uint64_t seed = 0; seed < 20; ++seed) {
     Random random(seed, 0);
@@ -138,7 +138,7 @@ TEST(Carried, AThingGoesAlongWithTheHandThatHoldsItAndStaysStiff) {
             stands.mesh_in_cam.vertices_m);
 }
 
-TEST(Room, GivesWayToThePersonsPath) {
+TEST(Room, KeepsThePersonsPathFree) {
   const Eigen::Isometry3d camera = LookAt({0, 1, 3}, {0, 1, 0});
   const std::vector<recon::Posture> path = {At(-3.2, 0.3), At(3.2, 0.3)};
   for (uint64_t seed = 0; seed < 50; ++seed) {
@@ -160,7 +160,7 @@ TEST(Room, GivesWayToThePersonsPath) {
 }
 
 // Also where the camera hangs beside or behind the person, as under the ceiling.
-TEST(Room, HoldsThePersonAndTheCamera) {
+TEST(Room, ContainsThePersonAndTheCamera) {
   constexpr View kViews[] = {View::kFront, View::kNear, View::kAny, View::kCeiling};
   for (const View view : kViews) {
     for (uint64_t seed = 0; seed < 200; ++seed) {

@@ -36,7 +36,7 @@ std::string Bytes(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(RenderDataset, GoesOnWhereItWasStoppedWithTheSameBytes) {
+TEST(RenderDataset, ResumesWithTheSameBytes) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   const FrameInputs inputs(LoadFetchedBody(), MakePoseBank(recon::LoadMocap({"authored-floor"})),
@@ -89,7 +89,7 @@ TEST(RenderDataset, DoesNotMixFramesOfTwoMotions) {
 }
 
 // `ossa train` asked for a manifest, `ossa info` for a skeleton.
-TEST(RenderDataset, ThatIsNotFinishedSaysSoToItsReader) {
+TEST(RenderDataset, UnfinishedDataSetIsRefusedAsSuch) {
   const test::TemporaryFolder folder;
   const fs::path set = folder / "set";
   fs::create_directories(set / ".work");
@@ -103,7 +103,7 @@ TEST(RenderDataset, ThatIsNotFinishedSaysSoToItsReader) {
 }
 
 // Killed while it writes an image, and again between the manifest and the end.
-TEST(RenderDataset, KeepsNothingThatAKilledRunLeft) {
+TEST(RenderDataset, RemovesLeftoversOfAKilledRun) {
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   const test::TemporaryFolder folder;
   FrameOptions options;

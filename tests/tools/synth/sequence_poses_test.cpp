@@ -30,7 +30,7 @@ class Sequence : public ::testing::TestWithParam<Occluders> {
   }
 };
 
-TEST_P(Sequence, TheRoomAndWhatStandsInItStayWhereTheyAre) {
+TEST_P(Sequence, RoomAndStandingObjectsStayInPlace) {
   for (uint64_t seed = 1; seed <= 4; ++seed) {
     const LabelledFrame early = RenderFrame(seed, GetParam(), 0),
                         late = RenderFrame(seed, GetParam(), 40);

@@ -29,7 +29,7 @@ TEST(ViewSampler, FrontViewsFaceTheCameraAndHaveThePersonInTheImage) {
   EXPECT_GT(whole, 250) << "whole bodies must be the rule";
 }
 
-TEST(ViewSampler, TheWorldsUpIsUpInTheImageAndThePersonsLeftIsImageRightWhenFacing) {
+TEST(ViewSampler, ImageIsUprightAndAFacingPersonsLeftIsAtTheRight) {
   Random random(2, 0);
   const ViewSample sample = SampleView({.view = View::kFront}, random);
   const auto pixel = [&](double x, double y) {
@@ -41,7 +41,7 @@ TEST(ViewSampler, TheWorldsUpIsUpInTheImageAndThePersonsLeftIsImageRightWhenFaci
   EXPECT_NEAR(sample.camera_from_world.linear().determinant(), 1.0, 1e-12);
 }
 
-TEST(ViewSampler, FrontAndNearViewsAreAsFarAsTheirDocumentsSay) {
+TEST(ViewSampler, FrontAndNearViewsHaveTheDocumentedDistances) {
   struct Range {
     View view;
     double from_m, to_m;
@@ -84,7 +84,7 @@ TEST(ViewSampler, TrainAndTestNeverShareAPlacement) {
   }
 }
 
-TEST(ViewSampler, TheCeilingIsHighAndLooksDown) {
+TEST(ViewSampler, CeilingCameraIsHighAndLooksDown) {
   Random random(5, 0);
   int straight = 0, upside_down = 0, aside = 0;
   for (int i = 0; i < 300; ++i) {
@@ -105,7 +105,7 @@ TEST(ViewSampler, TheCeilingIsHighAndLooksDown) {
   EXPECT_GT(aside, 100) << "people are anywhere in the image";
 }
 
-TEST(ViewSampler, AnyCameraIsOfEverySizeAndFieldOfView) {
+TEST(ViewSampler, AnyCameraCoversSizesAndFieldsOfView) {
   Random random(6, 0);
   int small = 0, large = 0, wide = 0, shrunk = 0;
   for (int i = 0; i < 400; ++i) {
@@ -124,7 +124,7 @@ TEST(ViewSampler, AnyCameraIsOfEverySizeAndFieldOfView) {
   for (const int count : {small, large, wide, shrunk}) EXPECT_GT(count, 40);
 }
 
-TEST(ViewSampler, AShrunkCameraSeesAPointWhereItsPixelWasTakenFrom) {
+TEST(ViewSampler, ShrunkCameraProjectsToTheSampledPixel) {
   const depth::Camera large{
       .width = 240, .height = 240, .fx = 285.7, .fy = 285.7, .cx = 119.5, .cy = 119.5};
   const depth::Camera small = ShrunkCamera(large, 2.4);

@@ -61,7 +61,7 @@ void CountHands(const depth::DepthFrame& frame, Tracker& tracker, Hands* hands) 
 
 // Each image is a first frame, without state. From behind the forearms might as well be in front of
 // the belly, so the requirement is stricter from the front.
-TEST(BelowTheImage, AreHandsThatItsBorderCutsOff) {
+TEST(BelowTheImage, HandsCutOffByTheBorderArePlacedBelowTheImage) {
   OSSA_NEEDS_MODEL();
   if (!recon::BodyIsFetched(recon::BodyFolder())) GTEST_SKIP() << "no body: tools/fetch_body";
   constexpr int kImages = 500, kPostures = 9000;

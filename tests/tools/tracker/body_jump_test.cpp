@@ -4,7 +4,7 @@
 namespace ossa::tracker {
 namespace {
 
-TEST(BodyJump, OfOneFrameIsNotShown) {
+TEST(BodyJump, OneFrameJumpIsSuppressed) {
   OSSA_NEEDS_MODEL();
   constexpr double kJump_m = 0.4;
   Tracker tracker;

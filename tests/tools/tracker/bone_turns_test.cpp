@@ -57,11 +57,11 @@ double TwistOfTheSkeleton_rad(bool physics) {
 
 // Joints tell a forearm's turn by its parents' alone: no closer than the capsule person's arms hang
 // like the rig's, some 10 degrees.
-TEST(BoneTurns, OfTheDatabaseReachTheSkeleton) {
+TEST(BoneTurns, DatabaseTwistReachesTheSkeleton) {
   EXPECT_NEAR(TwistOfTheSkeleton_rad(false), kTwist_rad, 0.25);
 }
 
-TEST(BoneTurns, OfTheDatabaseReachTheSkeletonThroughTheCharacter) {
+TEST(BoneTurns, DatabaseTwistReachesTheSkeletonThroughTheCharacter) {
   EXPECT_NEAR(TwistOfTheSkeleton_rad(true), kTwist_rad, 0.35);
 }
 

@@ -62,17 +62,17 @@ SkeletonOptions Unsmoothed(const std::string& method) {
   return options;
 }
 
-TEST(FinalBones, KeepTheirLengthsWhereJointsAreHeldToTheImage) {
+TEST(FinalBones, StayConstantWithFreeSpaceConstraints) {
   EXPECT_LT(WorstDrift(Unsmoothed("best")), 0.001);
 }
 
-TEST(FinalBones, AreThoseOfTheMechanicalCharacter) {
+TEST(FinalBones, EqualThoseOfThePhysicalCharacter) {
   SkeletonOptions options = Unsmoothed("best");
   options.physics = true;
   EXPECT_LT(WorstDrift(options), 0.001);
 }
 
-TEST(FinalBones, KeepTheLengthsInWhichTheySettleWhereTheyAreJudged) {
+TEST(FinalBones, SettleWithNetworkEstimates) {
   SkeletonOptions options = Unsmoothed("best");
   EXPECT_GT(WorstDrift(options, 1), 0.001);
   // Later than in a second: frames with too many odd joints count for nothing.
@@ -81,19 +81,19 @@ TEST(FinalBones, KeepTheLengthsInWhichTheySettleWhereTheyAreJudged) {
   EXPECT_LT(WorstDrift(options, 75), 0.001);
 }
 
-TEST(FinalBones, KeepTheirLengthsWhereJointsAreSmoothed) {
+TEST(FinalBones, StayConstantUnderSmoothing) {
   SkeletonOptions options = Unsmoothed("best");
   options.smoothing = SmoothingPreset("verysmooth");
   EXPECT_LT(WorstDrift(options), 0.001);
 }
 
-TEST(FinalBones, AreAsSeenWhereNothingIsReconstructed) {
+TEST(FinalBones, EqualTheObservationWithoutReconstruction) {
   EXPECT_GT(WorstDrift(Unsmoothed("none")), 0.1);
 }
 
 // What leaves the character does not go back into the floor or the chest, however surely joints are
 // seen there.
-TEST(Physics, FloorAndChestHoldInWhatLeaves) {
+TEST(Physics, FloorAndChestContainTheLimbs) {
   tests::CapsuleRender render = Rendered({PersonAt(0.0, 2.5)});
   SkeletonOptions options = Unsmoothed("none");
   options.physics = true;

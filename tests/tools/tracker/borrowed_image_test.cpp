@@ -42,7 +42,7 @@ void ExpectSame(const BodyFrame& a, const BodyFrame& b) {
   }
 }
 
-TEST(BorrowedImage, IsTrackedAsItsCopyByEveryStage) {
+TEST(BorrowedImage, GivesTheSameResultsAsACopyInEveryStage) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.0, 2.5)});
   const Buffer buffer(render.frame);
@@ -65,7 +65,7 @@ TEST(BorrowedImage, IsDrawn) {
   EXPECT_EQ(bytes_of("borrowed.png"), bytes_of("copied.png"));
 }
 
-TEST(BorrowedImage, IsTurned) {
+TEST(BorrowedImage, IsRotated) {
   OSSA_NEEDS_MODEL();
   const depth::DepthFrame lying = depth::Turned(Rendered({PersonAt(0.0, 2.5)}).frame, 1);
   const Buffer buffer(lying);
@@ -75,7 +75,7 @@ TEST(BorrowedImage, IsTurned) {
   ExpectSame(borrowed.Track(buffer.Borrow(lying)), copied.Track(lying));
 }
 
-TEST(BorrowedImage, OfAnotherShapeThanTheCamerasIsRefused) {
+TEST(BorrowedImage, SizeMustMatchTheCamera) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.0, 2.5)});
   const Buffer buffer(render.frame);

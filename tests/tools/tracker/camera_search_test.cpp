@@ -36,17 +36,17 @@ class CameraSearchTest : public testing::Test {
   const depth::Camera right_ = frame_.camera;
 };
 
-TEST_F(CameraSearchTest, TakesTheNarrowerViewWhereTheFirstShowsPeopleTooLarge) {
+TEST_F(CameraSearchTest, PrefersTheNarrowerCameraIfTheFirstMakesPeopleTooLarge) {
   OSSA_NEEDS_MODEL();
   EXPECT_EQ(Search({WithFocal(right_, 1.0 / kRatio), right_}), 1u);
 }
 
-TEST_F(CameraSearchTest, KeepsTheFirstWhereTheOthersShowPeopleTooSmall) {
+TEST_F(CameraSearchTest, KeepsTheFirstCameraIfOthersMakePeopleTooSmall) {
   OSSA_NEEDS_MODEL();
   EXPECT_EQ(Search({right_, WithFocal(right_, kRatio)}), 0u);
 }
 
-TEST_F(CameraSearchTest, IsSureByPeopleOnly) {
+TEST_F(CameraSearchTest, DecidesFromPeopleOnly) {
   OSSA_NEEDS_MODEL();
   CameraSearch search({right_, WithFocal(right_, kRatio)}, PlainOptions());
   depth::DepthFrame empty = frame_;

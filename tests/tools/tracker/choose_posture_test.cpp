@@ -49,7 +49,7 @@ class Choosing : public testing::Test {
   ChoiceContext context_;
 };
 
-TEST_F(Choosing, AConfidentVisibleModeIsTracked) {
+TEST_F(Choosing, ConfidentVisibleModeIsTracked) {
   const recon::TrackedPosture chosen = Choose();
   for (size_t j = 0; j < recon::kJointCount; ++j) {
     EXPECT_EQ(chosen.state[j], TrackingState::kTracked) << j;
@@ -58,13 +58,13 @@ TEST_F(Choosing, AConfidentVisibleModeIsTracked) {
   }
 }
 
-TEST_F(Choosing, AModeWhoseBonesFitIsTakenBeforeAMoreLikelyOne) {
+TEST_F(Choosing, PrefersAModeWithPlausibleBonesOverAMoreLikelyOne) {
   const Eigen::Vector3d far_m = standing_[Joint::kElbowLeft] + Eigen::Vector3d(0.9, 0.0, 0.0);
   Rival(Joint::kElbowLeft, far_m, 0.95);
   EXPECT_EQ(Choose().posture[Joint::kElbowLeft], standing_[Joint::kElbowLeft]);
 }
 
-TEST_F(Choosing, OfTwoThatFitTheLikelierIsTakenUnlessItJumps) {
+TEST_F(Choosing, PrefersTheLikelierPlausibleModeUnlessItJumps) {
   // Off across the bone, so that its length is the same.
   const Eigen::Vector3d beside_m = standing_[Joint::kHead] + Eigen::Vector3d(0.0, 0.0, -0.1);
   Rival(Joint::kHead, beside_m, 0.95);
@@ -78,14 +78,14 @@ TEST_F(Choosing, OfTwoThatFitTheLikelierIsTakenUnlessItJumps) {
   EXPECT_EQ(Choose().posture[Joint::kHead], beside_m);
 }
 
-TEST_F(Choosing, AnUnlikelyModeIsNotChosen) {
+TEST_F(Choosing, UnlikelyModeIsNotChosen) {
   ModesOf(Joint::kHandRight)[0].confidence = 0.01;
   EXPECT_EQ(Choose().state[Index(Joint::kHandRight)], TrackingState::kNotTracked);
   ModesOf(Joint::kHandRight).clear();
   EXPECT_EQ(Choose().state[Index(Joint::kHandRight)], TrackingState::kNotTracked);
 }
 
-TEST_F(Choosing, AModeWithoutSurfaceOrOutsideTheImageIsInferred) {
+TEST_F(Choosing, ModeWithoutSurfaceOrOutsideTheImageIsInferred) {
   ModesOf(Joint::kKneeLeft)[0].seen = false;
   EXPECT_EQ(Choose().state[Index(Joint::kKneeLeft)], TrackingState::kInferred);
   for (Eigen::Vector3d& joint_m : standing_.position_m) joint_m.x() += 1.3;  // half in the image
@@ -104,7 +104,7 @@ TEST_F(Choosing, AModeWithoutSurfaceOrOutsideTheImageIsInferred) {
   EXPECT_EQ(chosen.state[Index(Joint::kHandRight)], TrackingState::kTracked);
 }
 
-TEST_F(Choosing, OfTwoHandsAtOnePlaceTheWeakerIsInferred) {
+TEST_F(Choosing, WeakerOfTwoCoincidentHandsIsInferred) {
   context_.options.worst_bone = 0.0;  // so that lengths do not matter
   ModesOf(Joint::kWristRight)[0].position_m = standing_[Joint::kWristLeft];
   ModesOf(Joint::kWristRight)[0].confidence = 0.8;
@@ -116,7 +116,7 @@ TEST_F(Choosing, OfTwoHandsAtOnePlaceTheWeakerIsInferred) {
   EXPECT_EQ(chosen.state[Index(Joint::kWristRight)], TrackingState::kTracked);
 }
 
-TEST_F(Choosing, HipsAreInferredWhereNoThighIsSeen) {
+TEST_F(Choosing, HipsAreInferredWithoutAVisibleThigh) {
   context_.leg_area_m2 = 0.5 * context_.options.thigh_m2;
   const recon::TrackedPosture chosen = Choose();
   for (size_t j = 0; j < recon::kJointCount; ++j) {
@@ -125,7 +125,7 @@ TEST_F(Choosing, HipsAreInferredWhereNoThighIsSeen) {
   }
 }
 
-TEST(LearnBoneLengths, LearnsOfBonesWhoseEndsAreTracked) {
+TEST(LearnBoneLengths, UsesBonesWithTrackedEnds) {
   recon::TrackedPosture observed;
   observed.posture = recon::StandardPosture(recon::RigPose{});
   for (Eigen::Vector3d& joint_m : observed.posture.position_m) joint_m *= 1.2;

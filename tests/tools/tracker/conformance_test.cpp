@@ -131,7 +131,7 @@ void PrintTo(const EdgeCase& edge, std::ostream* out) { *out << edge.name; }
 
 class ClippedEdges : public testing::TestWithParam<EdgeCase> {};
 
-TEST_P(ClippedEdges, NameTheBorderThatCutsTheBody) {
+TEST_P(ClippedEdges, AreTheBordersThatCutTheBody) {
   OSSA_NEEDS_MODEL();
   const BodyFrame bodies =
       TrackOnce(PlainOptions(), Rendered({PersonAt(GetParam().x_m, GetParam().z_m)}));

@@ -31,7 +31,7 @@ BodyFrame TrackFirstFrame(std::shared_ptr<const recon::PoseNetwork> network,
   return Tracker(options).Track(frame);
 }
 
-TEST(FirstFrame, APersonRejectedByThePoseNetworkIsNotAccepted) {
+TEST(FirstFrame, PersonRejectedByThePoseNetworkIsNotAccepted) {
   OSSA_NEEDS_MODEL();
   const depth::DepthFrame frame = Rendered({PersonAt(0, 2.5)}).frame;
   EXPECT_EQ(TrackFirstFrame(nullptr, frame).bodies.size(), 1U);
@@ -44,7 +44,7 @@ TEST(FirstFrame, APersonRejectedByThePoseNetworkIsNotAccepted) {
 }
 
 // The network estimates the same joints for either half.
-TEST(FirstFrame, APersonDividedByAPoleIsOneBody) {
+TEST(FirstFrame, PersonDividedByAPoleIsOneBody) {
   OSSA_NEEDS_MODEL();
   const auto network = ModelSet::Shipped(TrackerOptions{}.method).pose_network;
   for (const double half_m : {0.02, 0.04}) {  // of the pole's width
@@ -75,7 +75,7 @@ depth::DepthFrame PersonBehindAnArm() {
   return frame;
 }
 
-TEST(FirstFrame, APersonDividedByAnArmIsOneBody) {
+TEST(FirstFrame, PersonDividedByAnArmIsOneBody) {
   OSSA_NEEDS_MODEL();
   const auto network = ModelSet::Shipped(TrackerOptions{}.method).pose_network;
   const BodyFrame seen = TrackFirstFrame(network, PersonBehindAnArm());
@@ -134,7 +134,7 @@ double Width_m(const people::Detection& detection) {
   return region.high_m.x() - region.low_m.x();
 }
 
-TEST(FirstFrame, ARejectedCandidateIsCroppedAroundItsHead) {
+TEST(FirstFrame, RejectedCandidateIsCroppedAroundItsHead) {
   OSSA_NEEDS_MODEL();
   constexpr double kNever = 1.1;
   const depth::DepthFrame frame = PersonBetweenThings();

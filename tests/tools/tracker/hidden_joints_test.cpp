@@ -42,7 +42,7 @@ struct HandInTheAir {
   }
 };
 
-TEST(HiddenJoints, AreNotLeftWhereTheCameraLooksThroughThem) {
+TEST(HiddenJoints, AreMovedOutOfFreeSpace) {
   HandInTheAir scene(recon::TrackingState::kInferred);
   const Eigen::Vector3d said = scene.body.raw.posture.position_m[kHand];
   ASSERT_TRUE(recon::IsInFreeSpace(said, scene.render.frame));
@@ -51,7 +51,7 @@ TEST(HiddenJoints, AreNotLeftWhereTheCameraLooksThroughThem) {
 }
 
 // The stump of an arm whose hand is outside of the sensor's range was classified as the hand.
-TEST(HiddenJoints, AreNotTrackedWhereTheCameraLooksThroughThem) {
+TEST(HiddenJoints, AreNotTrackedInFreeSpace) {
   HandInTheAir scene(recon::TrackingState::kTracked);
   scene.Hand(1);
   EXPECT_EQ(scene.body.joints[kHand].state, recon::TrackingState::kInferred);
@@ -60,7 +60,7 @@ TEST(HiddenJoints, AreNotTrackedWhereTheCameraLooksThroughThem) {
 }
 
 // Strong smoothing lags behind a fast hand, which is seen nevertheless.
-TEST(HiddenJoints, AreTrackedWhereSmoothingLagsBehindWhatIsSeen) {
+TEST(HiddenJoints, VisibleJointsStayTrackedWhileSmoothingLags) {
   HandInTheAir scene(recon::TrackingState::kTracked);
   scene.options.smoothing = SmoothingPreset("verysmooth");
   scene.Hand(10);
@@ -70,7 +70,7 @@ TEST(HiddenJoints, AreTrackedWhereSmoothingLagsBehindWhatIsSeen) {
   EXPECT_EQ(scene.body.joints[kHand].state, recon::TrackingState::kTracked);
 }
 
-TEST(HiddenJoints, ThatAreSeenAgainStayWhereTheyAreSeen) {
+TEST(HiddenJoints, ReappearingJointsStayAtTheirObservation) {
   HandInTheAir scene(recon::TrackingState::kInferred);
   scene.Hand(10);
   scene.body.raw.state[kHand] = recon::TrackingState::kTracked;
@@ -93,7 +93,7 @@ double WristGoes_m(recon::TrackingState state, const HoldOptions& hold = {}) {
   return (scene.body.joints[kWrist].position_m - before).norm();
 }
 
-TEST(HiddenJoints, DoNotLeap) {
+TEST(HiddenJoints, DoNotJump) {
   constexpr double kElbowMoves_m = 0.03, kLeap_m = 0.25;
   HoldOptions fast;
   fast.guess_m_s = 100.0;
@@ -126,7 +126,7 @@ TEST(HiddenJoints, IncludeObservationsOfOtherObjects) {
 }
 
 // A desk's corner was classified as feet, which are below the image.
-TEST(HiddenJoints, NothingThatLeavesOutsideOfTheImageIsTracked) {
+TEST(HiddenJoints, JointsOutsideTheImageAreNotTracked) {
   constexpr double kHighestFoot_m = -1.3;  // 2.5 m away the image ends above
   HandInTheAir scene(recon::TrackingState::kTracked);
   scene.body.raw.posture = scene.render.joints.front();

@@ -67,20 +67,20 @@ TEST_F(AtTheBorder, APersonLosingJointsDoesNotJump) {
   EXPECT_TRUE(Step(kThere, 6)) << "where they were";
 }
 
-TEST_F(AtTheBorder, ABetterObservationIsAccepted) {
+TEST_F(AtTheBorder, AcceptsABetterObservation) {
   EXPECT_TRUE(Step(kThere, 3));
   EXPECT_TRUE(Step(kElsewhere, 5));
   EXPECT_TRUE(Step(kThere, 19)) << "mostly seen";
 }
 
-TEST_F(AtTheBorder, ASecondLaterTheyAreBelieved) {
+TEST_F(AtTheBorder, AcceptsJumpsAfterASecond) {
   EXPECT_TRUE(Step(kThere, 9));
   int disbelieved = 0;
   while (disbelieved < 60 && !Step(kElsewhere, 6)) ++disbelieved;
   EXPECT_NEAR(disbelieved * kFrame_s, options_.hold.disbelieved_s, 2 * kFrame_s);
 }
 
-TEST_F(AtTheBorder, InsideTheImageJumpsAreBelieved) {
+TEST_F(AtTheBorder, AcceptsJumpsInsideTheImage) {
   EXPECT_TRUE(Step(kThere, 9, 0));
   EXPECT_TRUE(Step(kElsewhere, 6, 0));
 }

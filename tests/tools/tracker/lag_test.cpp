@@ -41,7 +41,7 @@ double HeadOf(const BodyFrame& frame, size_t body = 0) {
 
 class LaggedBy : public testing::TestWithParam<int> {};
 
-TEST_P(LaggedBy, LosesNoFrameAndKeepsTimesAndPeople) {
+TEST_P(LaggedBy, KeepsFramesTimesAndPeople) {
   std::vector<BodyFrame> seen;
   for (int f = 0; f < 12; ++f) {
     std::map<int, double> heads_m = {{1, 0.01 * f}};
@@ -62,7 +62,7 @@ TEST_P(LaggedBy, LosesNoFrameAndKeepsTimesAndPeople) {
   }
 }
 
-TEST_P(LaggedBy, DoesAsFilesDo) {
+TEST_P(LaggedBy, EqualsTheLagOfFiles) {
   std::vector<BodyFrame> seen;
   recon::SkeletonSequence sequence{"made up", {}};
   for (int f = 0; f < 15; ++f) {
@@ -83,7 +83,7 @@ TEST_P(LaggedBy, DoesAsFilesDo) {
   }
 }
 
-TEST_P(LaggedBy, StartsAnewAfterTheEndOfAStream) {
+TEST_P(LaggedBy, RestartsAfterTheEndOfAStream) {
   LaggedBodies bodies(recon::LagOptions::Of(GetParam(), false));
   for (int f = 0; f < 5; ++f) bodies.Add(FrameWith(f, {{1, 0.0}}));
   while (bodies.DrainLag()) {
@@ -94,7 +94,7 @@ TEST_P(LaggedBy, StartsAnewAfterTheEndOfAStream) {
   EXPECT_NEAR(HeadOf(*held), 0.01, 1e-9);
 }
 
-TEST_P(LaggedBy, IsTheTrackersOwn) {
+TEST_P(LaggedBy, EqualsTheTrackersLag) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options = PlainOptions();
   Tracker now(options);
@@ -116,13 +116,13 @@ TEST_P(LaggedBy, IsTheTrackersOwn) {
 INSTANTIATE_TEST_SUITE_P(Frames, LaggedBy, testing::Values(1, 2),
                          testing::PrintToStringParamName());
 
-TEST(LagOfATracker, IsTwoFramesAtMost) {
+TEST(LagOfATracker, IsAtMostTwoFrames) {
   TrackerOptions options;
   options.lag = 3;
   EXPECT_THROW(options.Check(), std::invalid_argument);
 }
 
-TEST(LaggedTracker, ForgetsHeldFramesWithEverybody) {
+TEST(LaggedTracker, ResetDiscardsHeldFrames) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options = PlainOptions();
   options.lag = 2;

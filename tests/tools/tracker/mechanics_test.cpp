@@ -28,7 +28,7 @@ TEST(Mechanics, AnUnseenFootStaysAtItsReconstruction) {
 }
 
 // The frame goes through the character like any other: nothing leaps to what was seen and back.
-TEST(Mechanics, GoesOnWhereATimeRepeats) {
+TEST(Mechanics, ContinuesWhenATimeRepeats) {
   recon::Posture standing = recon::StandardPosture(recon::RigPose{});
   for (auto& p : standing.position_m) p.z() += 2.0;
   recon::JointArray<double> trust;
@@ -43,7 +43,7 @@ TEST(Mechanics, GoesOnWhereATimeRepeats) {
 }
 
 // Physics on or off: bones are turned about themselves as the method has them.
-TEST(Mechanics, KeepsTheTurnsOfTheBones) {
+TEST(Mechanics, KeepsTheTwistOfTheBones) {
   constexpr double kTwist_rad = 0.7;
   recon::SkeletonSequence sequence;
   recon::Posture standing = recon::StandardStance();
@@ -88,7 +88,7 @@ double ShinAfter(double longer, double unsteady) {
               : 0;
 }
 
-TEST(Mechanics, TheCharacterGetsTheBonesThatThePosturesComeToKeep) {
+TEST(Mechanics, CharacterGetsTheSettledBoneLengths) {
   EXPECT_NEAR(ShinAfter(1.1, 0.0), 1.1, 2e-3);
   EXPECT_NEAR(ShinAfter(1.1, 0.02), 1.0, 2e-3);   // they keep none
   EXPECT_NEAR(ShinAfter(1.005, 0.0), 1.0, 2e-3);  // hardly others
@@ -112,7 +112,7 @@ double FootOn(std::initializer_list<double> floors_m) {
   return made ? made->posture[Joint::kFootLeft].y() - standing[Joint::kFootLeft].y() : -1.0;
 }
 
-TEST(Mechanics, TheTopOfATableIsNotTheFloor) {
+TEST(Mechanics, TableTopIsNotTheFloor) {
   EXPECT_NEAR(FootOn({0.5}), 0.0, 0.02);  // a table's: the legs behind it are not lifted onto it
   EXPECT_GT(FootOn({0.08}), 0.05);        // a little too high for the feet: they stand on it
   EXPECT_NEAR(FootOn({0.0}), 0.0, 0.02);

@@ -121,13 +121,13 @@ ClipErrors TrackCeilingClip(Tracker tracker) {
   return errors;
 }
 
-TEST(Mount, OfACeilingIsFoundOutInTheFirstFrameAndOneBodyWithIt) {
+TEST(Mount, CeilingIsDetectedInTheFirstFrameWithOneBody) {
   OSSA_NEEDS_CEILING();
   EXPECT_LT(TrackCeilingClip(Tracker()).visible_m, 0.12);
 }
 
 // Of a camera on its side the lower border of the image is that of the turned image.
-TEST(Mount, OfATurnedCameraIsThatOfTheTurnedImage) {
+TEST(Mount, RotatedCameraIsCheckedInTheRotatedImage) {
   OSSA_NEEDS_CEILING();
   constexpr int kImages = 12;
   TrackerOptions turned;
@@ -144,7 +144,7 @@ TEST(Mount, OfATurnedCameraIsThatOfTheTurnedImage) {
 }
 
 // With the weights of level cameras a part of a shelf is a second person.
-TEST(Mount, UnderACeilingFurnitureDoesNotBecomeAPersonByAndBy) {
+TEST(Mount, UnderACeilingFurnitureDoesNotBecomeAPerson) {
   OSSA_NEEDS_CEILING();
   TrackerOptions under_ceiling;
   under_ceiling.mount = Mount::kCeiling;
@@ -155,7 +155,7 @@ TEST(Mount, UnderACeilingFurnitureDoesNotBecomeAPersonByAndBy) {
   }
 }
 
-TEST(Mount, OfACeilingHasACascadeOfItsOwnThatBringsJointsNearer) {
+TEST(Mount, CeilingCascadeReducesTheErrorOfJoints) {
   OSSA_NEEDS_CEILING();
   const ClipErrors with = TrackCeilingClip(Tracker());
   EXPECT_EQ(with.refined, static_cast<int>(CeilingClip().size()));
@@ -176,7 +176,7 @@ recon::RefinementCascade SilentCascade(bool from_above) {
 }
 
 // A named cascade is for the mount that it was learned for; the other one keeps the shipped.
-TEST(Mount, ACascadeIsUsedFromWhereItWasLearned) {
+TEST(Mount, CascadeIsUsedForItsMountOnly) {
   OSSA_NEEDS_CEILING();
   const test::TemporaryFolder folder;
   ModelFiles files;
@@ -206,7 +206,7 @@ TEST(Mount, ACascadeIsUsedFromWhereItWasLearned) {
   EXPECT_EQ(TrackCeilingClip(Tracker(OptionsWith(files))).all_m, with_shipped.all_m);
 }
 
-TEST(Mount, ACascadeFromElsewhereIsRefusedWhereNoOtherTakesItsPlace) {
+TEST(Mount, CascadeOfAnotherMountIsRefusedWithoutReplacement) {
   OSSA_NEEDS_CEILING();
   const test::TemporaryFolder folder;
   ModelFiles files;
@@ -224,7 +224,7 @@ TEST(Mount, ACascadeFromElsewhereIsRefusedWhereNoOtherTakesItsPlace) {
   test::ExpectRefused([&] { Tracker{under_ceiling}; }, files.refinement + ": expected");
 }
 
-TEST(Mount, OfTheCeilingsForestTheShippedCascadeIsUsedUnderTheCeilingOnly) {
+TEST(Mount, CascadeOfTheCeilingForestIsUsedUnderTheCeilingOnly) {
   OSSA_NEEDS_CEILING();
   ModelFiles files;
   files.forest = ShippedFile("body_ceiling.ossa").string();
@@ -235,7 +235,7 @@ TEST(Mount, OfTheCeilingsForestTheShippedCascadeIsUsedUnderTheCeilingOnly) {
   EXPECT_NO_THROW(Tracker(level).Track(CeilingClip().front().depth));
 }
 
-TEST(Mount, UnderACeilingThePoseNetworkHasNoSay) {
+TEST(Mount, UnderACeilingThePoseNetworkIsIgnored) {
   OSSA_NEEDS_CEILING();
   ModelFiles without;
   without.pose_network = "none";
@@ -244,7 +244,7 @@ TEST(Mount, UnderACeilingThePoseNetworkHasNoSay) {
             TrackCeilingClip(Tracker()).all_m);
 }
 
-TEST(Mount, FromAboveThereIsAFloorAndItsHeightIsTheCameras) {
+TEST(Mount, FloorFromAboveHasTheCamerasHeight) {
   OSSA_NEEDS_CEILING();
   TrackerOptions options;
   options.mount = Mount::kCeiling;
@@ -256,7 +256,7 @@ TEST(Mount, FromAboveThereIsAFloorAndItsHeightIsTheCameras) {
 }
 
 // The floor, which detection needs there, is farther than the people.
-TEST(Mount, UnderACeilingPeopleAreFoundInNearRangeToo) {
+TEST(Mount, UnderACeilingNearRangeFindsPeople) {
   OSSA_NEEDS_CEILING();
   TrackerOptions options;
   options.near_range = true;
@@ -266,7 +266,7 @@ TEST(Mount, UnderACeilingPeopleAreFoundInNearRangeToo) {
   EXPECT_EQ(seen.bodies.size(), 1U);
 }
 
-TEST(Mount, SaidToBeLevelStaysSo) {
+TEST(Mount, OptionLevelIsKept) {
   OSSA_NEEDS_CEILING();
   TrackerOptions options;
   options.mount = Mount::kLevel;
@@ -275,7 +275,7 @@ TEST(Mount, SaidToBeLevelStaysSo) {
   EXPECT_EQ(tracker.mount(), Mount::kLevel);
 }
 
-TEST(Mount, IsForgottenWithEverybody) {
+TEST(Mount, IsForgottenByReset) {
   OSSA_NEEDS_CEILING();
   Tracker tracker;
   tracker.Track(CeilingClip().front().depth);
@@ -286,7 +286,7 @@ TEST(Mount, IsForgottenWithEverybody) {
   EXPECT_EQ(tracker.quarter_turns(), 2);
 }
 
-TEST(Mount, OfACeilingFramesThatALagHoldsBackComeOnce) {
+TEST(Mount, CeilingWithLagReturnsEachFrameOnce) {
   OSSA_NEEDS_CEILING();
   TrackerOptions options;
   options.lag = 2;
@@ -309,12 +309,12 @@ TEST(Mount, OfACeilingFramesThatALagHoldsBackComeOnce) {
 // A head near the camera with a wall far behind is as high above the wall as heads are above
 // floors, but the body is cut off by the lower image border. Without that rule 10 of these 60 are
 // classified as from the ceiling. In 2 of 600 such images furniture has the shape of a head.
-TEST(Mount, OfALevelCameraWithANearPersonStaysLevel) {
+TEST(Mount, LevelCameraWithANearPersonStaysLevel) {
   OSSA_NEEDS_CEILING();
   EXPECT_LE(CountCeilings({tools::View::kNear, tools::Background::kLivedIn, 5, false}, 60), 1);
 }
 
-TEST(Mount, OfALevelCameraBeforeAWallStaysLevel) {
+TEST(Mount, LevelCameraInFrontOfAWallStaysLevel) {
   OSSA_NEEDS_MODEL();
   EXPECT_FALSE(MayBeFromAbove(BeforeAWall(), false, people::PeopleOptionsFromAbove()));
   Tracker tracker;
@@ -329,7 +329,7 @@ TEST(Mount, OfALevelCameraBeforeAWallStaysLevel) {
 
 // In a furnished room a wall is often detected as the floor of a level camera, and no person in
 // front of it: such frames are checked, too. The others show people at the image's border.
-TEST(Mount, OfACeilingIsFoundOutWhereAWallPassesForAFloor) {
+TEST(Mount, CeilingIsDetectedIfAWallLooksLikeAFloor) {
   OSSA_NEEDS_CEILING();
   EXPECT_GE(CountCeilings({tools::View::kCeiling, tools::Background::kLivedIn, 2, false}, 24), 13);
 }
@@ -358,7 +358,7 @@ TEST(Mount, IsCheckedOnceASecondUntilThreeChecksShowAPersonOnALevelFloor) {
   EXPECT_FALSE(finder.IsDue(tracked));
 }
 
-TEST(Mount, IsAskedForWhereAFloorIsAllThatIsLevel) {
+TEST(Mount, IsCheckedIfOnlyTheFloorSuggestsALevelCamera) {
   MountFinder finder;
   for (int i = 0; i < 5; ++i) {
     BodyFrame tracked = LevelLook(i);

@@ -72,7 +72,7 @@ tests::CapsuleRender Shown(const Thing& thing, const Vector3d& place_m, int fram
 
 class MovingObject : public testing::TestWithParam<Thing> {};
 
-TEST_P(MovingObject, IsNoPerson) {
+TEST_P(MovingObject, IsNotAPerson) {
   OSSA_NEEDS_MODEL();
   constexpr int kEmpty = 10, kFrames = 90;
   for (const double z_m : {2.2, 3.2}) {

@@ -11,7 +11,7 @@ TrackerOptions WithParts() {
   return options;
 }
 
-TEST(BodyParts, AreGivenForEveryPixelOfAUserAndNoOther) {
+TEST(BodyParts, CoverExactlyTheUsersPixels) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(-0.5, 2.3), PersonAt(0.6, 2.8)});
   const BodyFrame bodies = Tracker(WithParts()).Track(render.frame);
@@ -24,7 +24,7 @@ TEST(BodyParts, AreGivenForEveryPixelOfAUserAndNoOther) {
 
 // A person of capsules is not what the forest was trained on and its parts have borders of their
 // own, so that no more than most of the labels can agree; of 31 a guess would hit some 5 %.
-TEST(BodyParts, AreMostlyThoseOfThePersonInView) {
+TEST(BodyParts, MostlyMatchTheTruth) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.0, 2.5)});
   const BodyFrame bodies = Tracker(WithParts()).Track(render.frame);
@@ -38,7 +38,7 @@ TEST(BodyParts, AreMostlyThoseOfThePersonInView) {
   EXPECT_GT(same, 0.6 * both);
 }
 
-TEST(BodyParts, OfARevokedPersonAreCleared) {
+TEST(BodyParts, AreClearedForAWithdrawnPerson) {
   BodyFrame frame;
   frame.users = depth::Image<uint8_t>(3, 1);
   frame.users.data = {1, 2, 0};
@@ -52,7 +52,7 @@ TEST(BodyParts, OfARevokedPersonAreCleared) {
 
 // Who asks for a picture gets the same skeleton as who does not; near enough that joints are found
 // on every second pixel only.
-TEST(BodyParts, ChangeNothingInTheJoints) {
+TEST(BodyParts, DoNotChangeTheJoints) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.0, 1.1)});
   const BodyFrame with = Tracker(WithParts()).Track(render.frame);

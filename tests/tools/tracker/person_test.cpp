@@ -28,13 +28,13 @@ TEST(Person, IsForgottenOutOfViewWhenTimeGoesBack) {
   EXPECT_TRUE(IdsLeft({}, 0.0).empty());
 }
 
-TEST(Person, IsRememberedOutOfViewWhereALoggersClockRunsBackALittle) {
+TEST(Person, IsRememberedOutOfViewIfTimestampsJitter) {
   EXPECT_EQ(IdsLeft({}, 16.998), (std::vector<int>{2, 3}));
   EXPECT_EQ(IdsLeft({}, 16.994), (std::vector<int>{2}));
 }
 
 // Rounding makes steps of i / 5 a little longer or shorter.
-TEST(Person, WasSeenJustBeforeAtFiveFramesASecond) {
+TEST(Person, CountsAsSeenInThePreviousFrameAt5Hz) {
   const HoldOptions options;
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(IsRecent((i + 1) / 5.0 - i / 5.0, options)) << i;
   EXPECT_TRUE(IsRecent(0.0, options));

@@ -51,7 +51,7 @@ Body Tracked(TrackerOptions options) {
   return result.bodies.empty() ? Body{} : result.bodies[0];
 }
 
-TEST(RefinedJoints, JointsStandBesideTheRawOnesAndBestStartsFromThem) {
+TEST(RefinedJoints, AreReturnedBesideTheRawOnesAndUsedByBest) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const auto higher = [&](double by_m) {
@@ -116,7 +116,7 @@ void RaiseHeadByBones(recon::RefinementCascade* cascade) {
 
 // The estimated bones of a person who walks away grow; the head rises by the length that the stage
 // reads, which is the mean of the frames before.
-TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfAllFramesBefore) {
+TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfEarlierFrames) {
   OSSA_NEEDS_MODEL();
   recon::RefinementCascade look = HeadHigher(0.0F);
   MeasureByDistance(&look);
@@ -143,7 +143,7 @@ TEST(RefinedJoints, BoneConditionedStagesReadTheMeanOfAllFramesBefore) {
             0.5);  // the mean is not the last one
 }
 
-TEST(RefinedJoints, OtherMethodsGoByTheRawJoints) {
+TEST(RefinedJoints, OtherMethodsUseTheRawJoints) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   const Body without = Tracked(OptionsWith({}, "none"));
@@ -158,7 +158,7 @@ TEST(RefinedJoints, OtherMethodsGoByTheRawJoints) {
 
 // Joints below the image, which the forest does not place, are where the network has them alone:
 // here in the middle of the person, not on the way there from the camera.
-TEST(RefinedJoints, WhatTheForestDoesNotPlaceIsWhereThePoseNetworkHasIt) {
+TEST(RefinedJoints, JointsMissingFromTheForestComeFromThePoseNetwork) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   ModelFiles files;
@@ -187,7 +187,7 @@ TEST(RefinedJoints, WhatTheForestDoesNotPlaceIsWhereThePoseNetworkHasIt) {
   EXPECT_GT(unplaced, 0);
 }
 
-TEST(RefinedJoints, NoCascadeMayBeAskedFor) {
+TEST(RefinedJoints, CanBeSwitchedOff) {
   OSSA_NEEDS_MODEL();
   EXPECT_TRUE(Tracked({}).refined);
   ModelFiles files;
@@ -195,7 +195,7 @@ TEST(RefinedJoints, NoCascadeMayBeAskedFor) {
   EXPECT_FALSE(Tracked(OptionsWith(files)).refined);
 }
 
-TEST(RefinedJoints, AForestOfOnesOwnIsNotRefinedUnasked) {
+TEST(RefinedJoints, CustomForestIsRefinedOnRequestOnly) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   ModelFiles files;
@@ -219,7 +219,7 @@ std::string SaveLearnedAt(const test::TemporaryFolder& folder, uint64_t forest, 
 // At the level forest's joints, at those of the one for ceilings.
 class RefinementOfAForest : public testing::TestWithParam<bool> {};
 
-TEST_P(RefinementOfAForest, WarnsBesideAnotherOneInALineThatNamesBothAndTheCommand) {
+TEST_P(RefinementOfAForest, WarnsInOneLineIfUsedWithAnotherForest) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   ModelFiles files;
@@ -239,7 +239,7 @@ TEST_P(RefinementOfAForest, WarnsBesideAnotherOneInALineThatNamesBothAndTheComma
 INSTANTIATE_TEST_SUITE_P(Mounts, RefinementOfAForest, testing::Bool(),
                          [](const auto& mount) { return mount.param ? "Ceiling" : "Level"; });
 
-TEST(RefinedJoints, AForestIsTheSameWhateverItIsCalledAndShippedModelsWarnOfNothing) {
+TEST(RefinedJoints, ForestIsRecognisedByContentAndShippedModelsGiveNoWarning) {
   OSSA_NEEDS_MODEL();
   const test::TemporaryFolder folder;
   ModelFiles files;

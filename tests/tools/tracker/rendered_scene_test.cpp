@@ -322,7 +322,7 @@ TEST(RenderedScene, OneThrowsABallToAnotherOfAnotherSizeBehindACupboard) {
 
 // ---- dodging
 
-TEST(RenderedScene, AChildWhoseLegsAreHiddenDodgesABall) {
+TEST(RenderedScene, ChildWithHiddenLegsDodgesABall) {
   OSSA_NEEDS_MODEL_AND_BODY();
   SceneOptions scene;
   SceneObject ball = test::MakeBall(0.2, 0.2);

@@ -63,7 +63,7 @@ TrackerOptions WithLag(int lag) {
   return options;
 }
 
-TEST(TrackerRun, CountsFramesThatWereLostWhereverTheSourceTellsOfThem) {
+TEST(TrackerRun, CountsDroppedFrames) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   ScriptedSource source({Frame(0, 1), Nothing(ReadStatus::kTimeout, 2), Frame(1),
@@ -72,7 +72,7 @@ TEST(TrackerRun, CountsFramesThatWereLostWhereverTheSourceTellsOfThem) {
   EXPECT_EQ(tracker.Run(source, [](const BodyFrame&) { return true; }), 31);
 }
 
-TEST(TrackerRun, TellsOfEveryFrameOnceWithAnyLag) {
+TEST(TrackerRun, ReportsEveryFrameOnceForAnyLag) {
   OSSA_NEEDS_MODEL();
   for (const int lag : {0, 1, 2}) {
     Tracker tracker(WithLag(lag));
@@ -81,7 +81,7 @@ TEST(TrackerRun, TellsOfEveryFrameOnceWithAnyLag) {
   }
 }
 
-TEST(TrackerRun, EndsWhenItsCallbackSaysSo) {
+TEST(TrackerRun, EndsOnRequestOfItsCallback) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(PlainOptions());
   ScriptedSource source({Frame(0, 1), Frame(1, 2), Frame(2, 4)});
@@ -90,7 +90,7 @@ TEST(TrackerRun, EndsWhenItsCallbackSaysSo) {
   EXPECT_EQ(seen, 2);
 }
 
-TEST(TrackerRun, ASourceThatIsDamagedLosesNoFrameBeforeTheDamage) {
+TEST(TrackerRun, KeepsTheFramesBeforeADamagedOne) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(WithLag(2));
   ScriptedSource source({Frame(0), Frame(1), Frame(2)});

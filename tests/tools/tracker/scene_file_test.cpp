@@ -96,7 +96,7 @@ struct Bad {
 
 class BadSceneFile : public testing::TestWithParam<Bad> {};
 
-TEST_P(BadSceneFile, IsRefusedInOneLineThatNamesThePlace) {
+TEST_P(BadSceneFile, IsRefusedInOneLineWithThePlace) {
   try {
     Load(GetParam().text);
     FAIL() << GetParam().text;
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{"name \"a\"\n", "1", "name = value"}, Bad{"[[object\n", "1", "[[name]]"},
                     Bad{"a = 1\na = 2\n", "2", "TOML"}));
 
-TEST(SceneFile, ThatIsNotThereIsRefused) {
+TEST(SceneFile, MissingFileIsRefused) {
   EXPECT_THROW(LoadScene("/nowhere/scene.toml"), InputError);
   EXPECT_THROW(LoadScene("/dev/null"), InputError);
 }

@@ -71,7 +71,7 @@ TEST(SceneRules, OnePersonDoesNotLiftAnObjectForTwo) {
 }
 
 // What takes two people by one rule is held by one of them by another.
-TEST(SceneRules, OfTwoForOneObjectNeitherUndoesTheOther) {
+TEST(SceneRules, TwoRulesForOneObjectDoNotUndoEachOther) {
   Lifting lifting;
   lifting.hands = 1;
   SceneOptions options = lifting.Options();
@@ -97,7 +97,7 @@ TEST(SceneRules, MovingTheHandAwayReleasesTheBox) {
   EXPECT_LT(seen.deepest_m, kOverlap_m);
 }
 
-TEST(SceneRules, ThrownByOneCaughtByTheOther) {
+TEST(SceneRules, ObjectThrownByOneIsCaughtByTheOther) {
   const Throwing throwing;
   Scene scene(throwing.Options());
   double hand_m_s = 0.0, ball_m_s = 0.0;

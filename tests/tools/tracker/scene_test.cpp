@@ -75,7 +75,7 @@ TEST(Scene, CompletesMissingJoints) {
   EXPECT_EQ(HoldersOf(scene, "box"), (std::vector<int>{1, 2}));
 }
 
-TEST(Scene, BeginsAnewWhereTimeRunsBack) {
+TEST(Scene, RestartsWhenTimeRunsBackwards) {
   const Lifting lifting;
   Scene scene(lifting.Options()), fresh(lifting.Options());
   Play(scene, lifting, 4.0);
@@ -84,7 +84,7 @@ TEST(Scene, BeginsAnewWhereTimeRunsBack) {
   EXPECT_EQ(PlaceOf(scene, "box"), PlaceOf(fresh, "box"));
 }
 
-TEST(Scene, GoesOnWhereTimesRepeatOrRunBackByMilliseconds) {
+TEST(Scene, ContinuesWhenTimesRepeatOrJitter) {
   const Lifting lifting;
   Scene scene(lifting.Options());
   for (int f = 0; f < 120; ++f) {
@@ -97,7 +97,7 @@ TEST(Scene, GoesOnWhereTimesRepeatOrRunBackByMilliseconds) {
 }
 
 // After a gap somebody is put elsewhere, and goes on holding what they hold.
-TEST(HandMemory, ForgetsHowItMovedAndNotHowItHolds) {
+TEST(HandMemory, ForgetsMotionButKeepsTheGrip) {
   HandMemory hand;
   hand.held_at_m = 0.07;
   hand.taken_by.near_m = 0.3;
@@ -116,7 +116,7 @@ TEST(HandMemory, ForgetsHowItMovedAndNotHowItHolds) {
 }
 
 // Things would wait for it for ever.
-TEST(Scene, TakesNoFloorThatIsNone) {
+TEST(Scene, RefusesAnInvalidFloor) {
   SceneOptions options = Lifting().Options();
   options.floor = test::Ground();
   EXPECT_NO_THROW(options.Check());
@@ -159,7 +159,7 @@ TEST(Scene, PlacesObjectsRelativeToAPerson) {
   EXPECT_NEAR(PlaceOf(scene, "ball").z(), wanted.z(), 0.05);
 }
 
-TEST(Scene, WritesItsObjectsWhichReadersPassOver) {
+TEST(Scene, WritesItsObjectsAndReadersSkipThem) {
   const Lifting lifting;
   Scene scene(lifting.Options());
   std::string line;

@@ -5,7 +5,7 @@
 namespace ossa::tracker {
 namespace {
 
-TEST(ShippedFile, IsItselfByAnyPathAndNoOtherFile) {
+TEST(ShippedFile, IsRecognisedByAnyOfItsPathsOnly) {
   OSSA_NEEDS_MODEL();
   const std::filesystem::path model = ShippedFile("body.ossa");
   EXPECT_TRUE(IsShippedFile(model, "body.ossa"));
@@ -16,7 +16,7 @@ TEST(ShippedFile, IsItselfByAnyPathAndNoOtherFile) {
 }
 
 // What is known of the shipped forest's errors corrects its joints, however it was named.
-TEST(ShippedFile, NamedByItsPathTracksAsUnnamed) {
+TEST(ShippedFile, NamingItByItsPathEqualsTheDefault) {
   OSSA_NEEDS_MODEL();
   ModelFiles files;
   files.forest = ShippedFile("body.ossa").string();
@@ -32,7 +32,7 @@ TEST(ShippedFile, NamedByItsPathTracksAsUnnamed) {
 }
 
 // Without a look nothing is known of what it leaves: there "none" changes nothing.
-TEST(ShippedFile, OfWhatIsKnownOfALooksErrorsNoneIsTakenOffWhereNoneIsWanted) {
+TEST(ShippedFile, CorrectionNoneDisablesTheCascadesOwnCorrection) {
   OSSA_NEEDS_MODEL();
   const auto render = Rendered({PersonAt(0.0, 2.5)});
   const auto tracked = [&render](const std::string& look, const std::string& learned) {

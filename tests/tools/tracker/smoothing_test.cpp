@@ -61,7 +61,7 @@ TEST(SdkConformance, HoltSmoothingTakesTheSdksFiveParameters) {
 }
 
 // Within an endless radius of jitter nothing would ever move.
-TEST(SmoothingOptions, MayNotBeEndlessWhereThatIsNoFilter) {
+TEST(SmoothingOptions, InfiniteValuesAreRefusedUnlessTheyDisableTheFilter) {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   SmoothingOptions o;
   o.holt.max_deviation_radius_m = kEndless;  // no limit
@@ -85,7 +85,7 @@ TEST(SdkConformance, FilteredJointsStayWithinTheDeviationRadius) {
   }
 }
 
-TEST(Smoothing, QuietsAStandingPerson) {
+TEST(Smoothing, ReducesTheJitterOfAStandingPerson) {
   // 8 mm of noise in each coordinate: the default leaves less than 5 mm.
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, 0.008);
@@ -99,14 +99,14 @@ TEST(Smoothing, QuietsAStandingPerson) {
   EXPECT_LT(std::sqrt(square), 0.005);
 }
 
-TEST(Smoothing, StartsAnewAfterAGap) {
+TEST(Smoothing, RestartsAfterAGap) {
   SmoothingState state;
   const SmoothingOptions o = SmoothingPreset("default");
   for (int i = 0; i < 10; ++i) Smooth(HeadAt(0), i / 30.0, o, state);
   EXPECT_DOUBLE_EQ(Smooth(HeadAt(3), 5.0, o, state)[Joint::kHead].x(), 3.0);
 }
 
-TEST(Smoothing, GoesOnWhereATimeRepeats) {
+TEST(Smoothing, ContinuesWhenATimeRepeats) {
   for (const char* preset : {"verysmooth", "one-euro"}) {
     SmoothingState state;
     const SmoothingOptions o = SmoothingPreset(preset);
@@ -118,7 +118,7 @@ TEST(Smoothing, GoesOnWhereATimeRepeats) {
   }
 }
 
-TEST(Smoothing, StartsAnewWhereAnotherFilterTakesOver) {
+TEST(Smoothing, RestartsWhenTheFilterChanges) {
   SmoothingState state;
   const SmoothingOptions holt = SmoothingPreset("verysmooth"), other = SmoothingPreset("one-euro");
   for (int i = 0; i < 10; ++i) Smooth(HeadAt(0), i / 30.0, holt, state);
@@ -126,7 +126,7 @@ TEST(Smoothing, StartsAnewWhereAnotherFilterTakesOver) {
   EXPECT_DOUBLE_EQ(Smooth(HeadAt(0.8), 11 / 30.0, holt, state)[Joint::kHead].x(), 0.8);
 }
 
-TEST(Smoothing, NamesWhatIsOutOfRange) {
+TEST(Smoothing, OutOfRangeValuesAreRefusedByName) {
   SmoothingOptions o;
   o.holt.smoothing = 1.0;
   try {

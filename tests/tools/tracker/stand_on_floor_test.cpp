@@ -78,14 +78,14 @@ TEST_F(Standing, BonesKeepTheirLengths) {
   }
 }
 
-TEST_F(Standing, ALegThatIsSeenStaysWhereItIs) {
+TEST_F(Standing, VisibleLegStaysInPlace) {
   body_.raw.state[Index(Joint::kKneeLeft)] = TrackingState::kTracked;
   const recon::Posture made = Stand();
   EXPECT_EQ(made[Joint::kAnkleLeft], before_[Joint::kAnkleLeft]);
   EXPECT_NE(made[Joint::kAnkleRight], before_[Joint::kAnkleRight]);
 }
 
-TEST_F(Standing, OthersStayAsTheyAre) {
+TEST_F(Standing, OtherPosturesStayUnchanged) {
   options_.from_above = false;
   EXPECT_EQ(Stand().position_m, before_.position_m) << "of a level camera";
   options_.from_above = true;

@@ -19,7 +19,7 @@ TrackerOptions Fitting(int threads = 1) {
   return options;
 }
 
-TEST(TrackedSurface, StandsBesideTheOtherStagesAndExplainsThePerson) {
+TEST(TrackedSurface, IsReturnedBesideTheOtherStagesAndExplainsThePixels) {
   OSSA_NEEDS_MODEL();
   const BodyFrame seen = LastOf(Fitting(), {PersonAt(0, 2.5)});
   ASSERT_EQ(seen.bodies.size(), 1U);
@@ -29,7 +29,7 @@ TEST(TrackedSurface, StandsBesideTheOtherStagesAndExplainsThePerson) {
 }
 
 // The bones of whoever comes in are what the fit and the network say of the first frame.
-TEST(TrackedSurface, JudgesBonesTogetherWithTheNetwork) {
+TEST(TrackedSurface, CombinesItsBonesWithTheNetworks) {
   OSSA_NEEDS_MODEL();
   Tracker tracker(Fitting());
   BodyFrame seen;
@@ -46,7 +46,7 @@ TEST(TrackedSurface, JudgesBonesTogetherWithTheNetwork) {
   }
 }
 
-TEST(TrackedSurface, IsNoneWhereItIsSwitchedOff) {
+TEST(TrackedSurface, IsEmptyIfSwitchedOff) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options;
   options.fit.reset();
@@ -71,7 +71,7 @@ TEST(TrackedSurface, IsTheSameOnAnyNumberOfThreads) {
 }
 
 // What explains its pixels badly is believed less; what has none stays as it was.
-TEST(TrackedSurface, DoubtsJointsOfWhichNoPixelsAreWhereTheyShouldBe) {
+TEST(TrackedSurface, LowersTheReliabilityOfJointsFarFromTheirPixels) {
   OSSA_NEEDS_MODEL();
   TrackerOptions trusting = Fitting(), doubting = Fitting();
   doubting.fit->doubt_residual_m = 0.02;
@@ -100,7 +100,7 @@ TEST(TrackedSurface, StartsFromAKnownShape) {
   EXPECT_LT((first.bodies[0].shape->shape - told->shape).norm(), 0.1 * told->shape.norm());
 }
 
-TEST(TrackedSurface, IsNoneWithoutABodyOrRefinedJoints) {
+TEST(TrackedSurface, IsEmptyWithoutABodyModelOrRefinedJoints) {
   OSSA_NEEDS_MODEL();
   ModelFiles bodiless, unrefined;
   bodiless.surface = "none";

@@ -74,7 +74,7 @@ std::pair<BodyFrame, BodyFrame> UprightAndTurned(TrackerOptions options, int qua
 }
 
 // The first frame is searched in all four rotations, and for a ceiling view.
-TEST(Upright, FindingItOutCountsWithTheFramesTime) {
+TEST(Upright, SearchTimeCountsInTheFramesTime) {
   TrackerOptions options;
   options.turn = Turn::kAuto;
   double best = 0.0;  // of three: a busy machine may stop between two clocks
@@ -89,7 +89,7 @@ TEST(Upright, FindingItOutCountsWithTheFramesTime) {
 
 class TurnedCamera : public testing::TestWithParam<int> {};
 
-TEST_P(TurnedCamera, SeesTheSamePeopleInItsOwnSpace) {
+TEST_P(TurnedCamera, ReturnsTheSamePeopleInItsOwnSpace) {
   OSSA_NEEDS_MODEL();
   const auto [upright, turned] = UprightAndTurned(PlainOptions(), GetParam());
   ASSERT_EQ(upright.bodies.size(), 1u);
@@ -105,7 +105,7 @@ TEST_P(TurnedCamera, SeesTheSamePeopleInItsOwnSpace) {
   EXPECT_EQ(turned.users.data, depth::Turned(upright.users, (4 - GetParam()) % 4).data);
 }
 
-TEST_P(TurnedCamera, HasEveryStageInItsOwnSpace) {
+TEST_P(TurnedCamera, ReturnsEveryStageInItsOwnSpace) {
   OSSA_NEEDS_MODEL();
   const auto [upright, turned] = UprightAndTurned({}, GetParam());
   ASSERT_EQ(upright.bodies.size(), 1u);
@@ -134,7 +134,7 @@ TEST_P(TurnedCamera, HasEveryStageInItsOwnSpace) {
   }
 }
 
-TEST_P(TurnedCamera, IsFoundOutBeforeTheFirstFrameIsTracked) {
+TEST_P(TurnedCamera, IsDetectedBeforeTheFirstFrameIsTracked) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options = PlainOptions();
   options.turn = Turn::kAuto;
@@ -149,7 +149,7 @@ TEST_P(TurnedCamera, IsFoundOutBeforeTheFirstFrameIsTracked) {
 INSTANTIATE_TEST_SUITE_P(All, TurnedCamera, testing::Values(0, 1, 2, 3));
 
 // Another recording, by a camera with another rotation.
-TEST(Turn, IsFoundOutAnewAfterAReset) {
+TEST(Turn, IsDetectedAgainAfterAReset) {
   OSSA_NEEDS_MODEL();
   TrackerOptions options = PlainOptions();
   options.turn = Turn::kAuto;
@@ -165,7 +165,7 @@ TEST(Turn, IsFoundOutAnewAfterAReset) {
   }
 }
 
-TEST(TurnBack, BordersGoBackToo) {
+TEST(TurnBack, RotatesBordersBackToo) {
   BodyFrame frame;
   frame.bodies.resize(1);
   frame.bodies[0].clipped_edges = kClippedTop | kClippedRight;
