@@ -74,9 +74,9 @@ struct ForestData {
   std::vector<ProposalTarget> targets;
   std::vector<PosePrior> pose_priors;  // one a context; or empty: targets are found singly
   /// The second stage of joints, cascaded pose regression
-  /// (depth/base/perceptron/pose_regression.h): moves the places of all targets at once.
-  /// forest/joint_features_internal.h says what goes in, forest/proposals/refinement.cpp what comes
-  /// out; empty: places stay as they are. Learned on images that the trees have not seen.
+  /// (depth/base/perceptron/pose_regression.h): moves the positions of all targets at once. Inputs
+  /// are defined in forest/joint_features_internal.h, outputs in forest/proposals/refinement.cpp;
+  /// empty: no refinement. Learned on images that the trees have not seen.
   Perceptron refinement;
   Relabelling relabelling;  // of the labels; or without biases
   std::string manifest;     // JSON text: the model's card

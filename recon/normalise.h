@@ -6,48 +6,48 @@
 
 namespace ossa::recon {
 
-/// Joints as the rest of recon weighs them: one value per Joint.
+/// One weight per joint.
 using JointWeights = JointArray<double>;
 
 /// The standard adult (1.66 m) standing with arms lowered to the sides, facing +z, left = +x, feet
-/// on y = 0: the joints of StandardPosture(RigPose{}). Its bones are the standard size to which
-/// databases and Gaussian processes retarget everyone.
+/// on y = 0: the joints of StandardPosture(RigPose{}). Databases and Gaussian processes retarget
+/// everyone to its bone lengths.
 const Posture& StandardStance();
 /// Bone lengths of the standard body, metres, in the order of the joints they end in.
 const BoneLengths& StandardBoneLengths();
 
-/// Where a person stands and which way the person faces. camera = root + Ry(yaw) * normalised.
-/// A normalised person faces +z with the left side at +x, HipCenter at the origin.
+/// Position and heading of a person: camera = root + Ry(yaw) * normalised. A normalised person
+/// faces +z with the left side at +x, HipCenter at the origin.
 struct Placement {
   Eigen::Vector3d root_m = Eigen::Vector3d::Zero();  // HipCenter in camera space
   double yaw_rad = 0.0;                              // about y; pi faces the camera
 };
 
 /// Placement of a posture in camera space. The heading is that of the hip line and the shoulder
-/// line, each weighed by its joints' weights; where neither can tell, `previous_yaw_rad`.
+/// line, each weighted by its joints' weights; `previous_yaw_rad` if neither determines it.
 Placement EstimatePlacement(const Posture& in_camera, const JointWeights& weights,
                             double previous_yaw_rad);
 
 /// Removes global translation and the rotation about the vertical (Shum & Ho 2012 sec. 5.1).
 Posture Normalised(const Posture& in_camera, const Placement& camera_from_normalised);
-/// The way back.
+/// Inverse of Normalised().
 Posture Placed(const Posture& normalised, const Placement& camera_from_normalised);
 
-/// Left and right exchanged, of a normalised posture: mirrored at x = 0.
+/// Mirrors a normalised posture at x = 0 and exchanges left and right.
 Posture Mirrored(const Posture& normalised);
 
 /// Every position multiplied by one factor.
 Posture Scaled(const Posture& posture, double factor);
 
-/// Shum & Ho 2012 eqs. 3-4: keeps every bone's direction, gives it the length asked for; the root
-/// stays. A bone without direction (zero length, not finite) takes that of the standard stance.
+/// Shum & Ho 2012 eqs. 3-4: sets the bone lengths and keeps all directions and the root. Bones
+/// without direction (zero length, not finite) get that of the standard stance.
 Posture Retargeted(const Posture& posture, const BoneLengths& lengths_m);
 
 /// The standard lengths multiplied by one factor.
 BoneLengths ScaledBoneLengths(double scale);
 
-/// The one factor by which the standard body best explains the bones whose both ends are trusted:
-/// the weighted median of the ratios, kept within people of 0.9 m and 2.2 m. 1 when nothing is.
+/// Size of a person relative to the standard body: the weighted median of the ratios of bone
+/// lengths, bounded to statures of 0.9 m to 2.2 m; 1 if no bone has weight.
 double EstimateBodyScale(const BoneLengths& lengths_m, const JointWeights& weights);
 
 }  // namespace ossa::recon

@@ -9,21 +9,20 @@ namespace ossa::recon {
 /// from parent to joint i. Entry 0 (HipCenter) is the player: x to the player's left, y up along
 /// the body, z out of the player's front.
 ///
-/// What positions cannot tell, the rotation about the bone's own axis, follows from a rest pose: a
-/// T-pose that faces +z with its left at +x. There every bone's z axis points forward (+z), only
-/// the feet's points up (+y), so x = y cross z. Away from it
-///  - the pelvis and the shoulders turn the trunk bones (x from right to left hip or shoulder),
-///  - a bent elbow or knee turns the upper limb: x is the hinge's axis, so that a positive rotation
-///    about x flexes an elbow and a negative one a knee,
-///  - every other bone follows its parent by the smallest rotation; a nearly straight limb does so
-///    too, blended over 10-30 degrees of flexion so that nothing jumps.
+/// The rotation about the bone's own axis, which positions do not determine, follows from a rest
+/// pose: a T-pose that faces +z with its left at +x. There every bone's z axis points forward (+z),
+/// except the feet's, which point up (+y), and x = y cross z. In other poses - the pelvis and the
+/// shoulders turn the trunk bones (x from right to left hip or shoulder), - a bent elbow or knee
+/// turns the upper limb: x is the hinge's axis, so that a positive rotation about x flexes an elbow
+/// and a negative one a knee, - every other bone follows its parent by the smallest rotation; a
+/// nearly straight limb does so too, blended over 10-30 degrees of flexion so that nothing jumps.
 ///
 /// Bones of zero length or with non-finite ends keep their parent's turn.
 JointOrientations ComputeOrientations(const Posture& posture);
 
-/// Orientations that are known otherwise (of a rig, a database, a physical character) brought onto
-/// a posture: each turned by the smallest rotation onto its bone, which keeps its turn about the
-/// bone. Where the bone has no direction it stays as it is. Entry 0 is what hips and spine tell.
+/// Aligns known orientations (of a rig, a database, a physical character) with a posture: each is
+/// rotated by the smallest rotation onto its bone, which keeps the twist. Bones without direction
+/// stay unchanged. Entry 0 follows from hips and spine.
 JointOrientations AlignToBones(const JointOrientations& orientations, const Posture& posture);
 
 /// The orientation of each bone at rest, as described above.

@@ -7,8 +7,8 @@
 
 namespace ossa::recon {
 
-/// 20 joint positions, metres, one per Joint in enum order. The name of the variable tells the frame
-/// (camera space, world, or normalised).
+/// 20 joint positions, metres, one per Joint in enum order. The name of the variable tells the
+/// frame (camera space, world, or normalised).
 struct Posture {
   JointArray<Eigen::Vector3d> position_m;
 
@@ -17,12 +17,13 @@ struct Posture {
   const Eigen::Vector3d& operator[](Joint j) const { return position_m[j]; }
 };
 
-/// Where a joint's x y z begin in a vector of all coordinates.
+/// Index of a joint's x in a vector of all coordinates.
 constexpr Eigen::Index FirstCoordinate(size_t joint) {
   return static_cast<Eigen::Index>(3 * joint);
 }
 
-/// As the Kinect SDK's JointTrackingState. A not-tracked joint's position means nothing.
+/// As the Kinect SDK's JointTrackingState. The position of a joint that is not tracked is
+/// meaningless.
 enum class TrackingState { kNotTracked, kInferred, kTracked };
 
 /// The observation of one person at one time by a sensor or in a file.
@@ -45,7 +46,7 @@ using BoneLengths = JointArray<double>;
 /// Distances from each joint to its parent, metres; 0 for the root.
 BoneLengths MeasureBoneLengths(const Posture& posture);
 
-/// Mean distance to the joints of `target` that are finite, metres; 0 where none is.
+/// Mean distance to the joints of `target` that are finite, metres; 0 if none is.
 double MeanDistance_m(const Posture& posture, const Posture& target);
 
 /// `seen` with its non-finite joints placed relative to their parents as in `whole`.

@@ -31,7 +31,7 @@ enum class Joint {
 };
 inline constexpr int kJointCount = 20;  // the Kinect SDK's
 
-/// Place of a joint in an array of all joints.
+/// Index of a joint in an array of all joints.
 constexpr size_t Index(Joint joint) { return static_cast<size_t>(joint); }
 
 /// One T for each joint, by the joint or by its index.
@@ -65,7 +65,7 @@ constexpr size_t ParentOf(size_t joint) {
 /// The SDK's name of a joint, "HipCenter".
 constexpr std::string_view NameOf(Joint joint) { return kJointNames[joint]; }
 
-/// The joint of an SDK name, none where there is no such joint.
+/// The joint with this SDK name; empty for other names.
 constexpr std::optional<Joint> JointFromName(std::string_view name) {
   for (size_t i = 0; i < kJointCount; ++i) {
     if (kJointNames[i] == name) return static_cast<Joint>(i);

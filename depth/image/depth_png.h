@@ -22,7 +22,7 @@ Image<uint16_t> ReadDepthPng(const std::filesystem::path& path);
 /// Only the size of a depth image: reads and checks the header, not the pixels.
 ImageSize ReadDepthPngSize(const std::filesystem::path& path);
 
-/// A PNG with a sound header that is no depth image: colour, or of 8 bits.
+/// True for a PNG with a valid header that is not a depth image: colour, or 8 bits.
 bool IsOtherPng(const std::filesystem::path& path);
 
 /// Writes atomically, one of many (AtomicFile::CommitOneOfMany); the same image gives the same

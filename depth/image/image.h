@@ -4,7 +4,7 @@
 
 namespace ossa::depth {
 
-/// A small owning image: row-major, height × width, one value a pixel.
+/// A small owning image: row-major, height × width, one value per pixel.
 template <typename T>
 struct Image {
   int width = 0;

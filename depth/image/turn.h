@@ -6,7 +6,7 @@
 
 namespace ossa::depth {
 
-/// Quarter turns of an image, clockwise as it is looked at, 0 to 3. Three more turn it back.
+/// Rotates an image clockwise by `quarters` quarter turns, 0 to 3; 4 - quarters rotate it back.
 
 /// Pixel (u, v) of an image that is `height` pixels high lies at (height - 1 - v, u) after one
 /// turn.
@@ -26,7 +26,7 @@ Image<T> Turned(const Image<T>& image, int quarters) {
   return turned;
 }
 
-/// The camera that sees the turned image: it was turned the other way about its optical axis.
+/// The camera of the rotated image; it is rotated about its optical axis in the opposite direction.
 Camera Turned(const Camera& camera, int quarters);
 
 DepthFrame Turned(const DepthFrame& frame, int quarters);
@@ -34,12 +34,11 @@ DepthFrame Turned(const DepthFrame& frame, int quarters);
 /// The camera of the image whose rows are reversed.
 Camera Unmirrored(const Camera& camera);
 
-/// As the sensor looks, of an image as a mirror shows it (u = cx + fx x/z, which Kinect SDKs,
-/// OpenNI2 and libfreenect2 deliver by default) with the camera of that image. The same the other
-/// way round.
+/// Mirrors an image and its camera: converts the mirrored images (u = cx + fx x/z) that Kinect
+/// SDKs, OpenNI2 and libfreenect2 deliver by default to the sensor's own view, and back.
 DepthFrame Unmirrored(const DepthFrame& frame);
 
-/// Takes points and directions of the turned camera's space to the camera's.
+/// Rotation from the rotated camera's space to the camera's.
 Eigen::Matrix3d CameraFromTurned(int quarters);
 
 }  // namespace ossa::depth

@@ -28,9 +28,9 @@ struct Node {
 };
 static_assert(sizeof(Node) == 16);
 
-/// What the pixels of a row of votes say of one target: its mean position relative to the pixel's
-/// surface point, camera axes, centimetres, and their spread (root mean square distance to the
-/// mean). Girshick et al. 2011, sec. 3.2, with one vote a target.
+/// The vote of a node's pixels for one target: its mean position relative to the pixel's surface
+/// point, camera axes, centimetres, and the spread (root mean square distance to the mean).
+/// Girshick et al. 2011, sec. 3.2, with one vote per target.
 struct Vote {
   static constexpr uint8_t kNone = 255;  // by convention
   std::array<int8_t, 3> offset_cm{};
@@ -40,8 +40,8 @@ struct Vote {
 };
 
 /// A decision tree whose leaves hold the joint distribution of (context, class), and whose nodes at
-/// `vote_depth` (or leaves above it) hold a row of votes for each context: a patch of chest seen
-/// from the front and one of back seen from behind look alike, and the hips lie elsewhere.
+/// `vote_depth` (or leaves above it) hold a row of votes for each context, because chest seen from
+/// the front and back seen from behind look alike but have different offsets to the hips.
 struct Tree {
   std::vector<Node> nodes;
   /// Entries of leaf i are entries[entry_begin[i]] ... entries[entry_begin[i + 1] - 1]; an entry is

@@ -8,7 +8,7 @@ namespace ossa::recon {
 /// Labels of part images: 0 background, 1..31 the body parts of Shotton et al. 2011, 32 any object
 /// in front of or held by the person. U/W: upper/lower, L/R: the person's left/right.
 inline constexpr int kPartCount = 31;
-/// The label of any object before or in the hands of a person, by convention.
+/// The label of any object in front of or held by a person, by convention.
 inline constexpr int kOtherPart = 32;
 /// Background, 31 parts, objects: by definition.
 inline constexpr int kLabelCount = 33;

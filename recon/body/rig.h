@@ -42,7 +42,7 @@ struct MotionClip {
   std::string subject;  // the performer, for splits; "" when unknown
   double frame_s = 1.0 / 30.0;
   std::vector<RigPose> frames;
-  /// What was odd in its file and how it was read, a line each: for people to see.
+  /// Warnings about its file, one line each.
   std::vector<std::string> warnings{};
 };
 

@@ -14,7 +14,7 @@ struct RigRest {
   std::array<Eigen::Vector3d, kRigBoneCount> tail_m;
 };
 
-/// Where a joint of the SDK sits: carried by a bone, at a place given in the rest pose.
+/// The bone that carries a joint of the SDK, and the joint's position in the rest pose, metres.
 struct JointAnchor {
   size_t bone = 0;
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();
@@ -36,18 +36,17 @@ std::array<Eigen::Vector3d, kRigBoneCount> StandardBoneHeads(const RigPose& pose
 /// The 20 joints of the standard body in the pose, in the pose's own world.
 Posture StandardPosture(const RigPose& pose);
 
-/// Orientations of the SDK's bones when the rig is posed so, world from bone, in the convention of
-/// recon/orientation.h: at rest those of the standing person, from there turned as the rig's bones
-/// are, which turn about themselves as no joint tells.
+/// Orientations of the SDK's bones for a pose of the rig, world from bone, in the convention of
+/// recon/orientation.h. Unlike orientations from joints they include the twist of the rig's bones.
 JointOrientations ComputeOrientations(const RigPose& pose);
-/// ... at rest.
+/// The same at rest.
 const JointOrientations& StandardOrientations();
 
-/// Number of the bone by its rig name; a name the rig does not have is a broken promise of ours.
+/// Index of the bone with this rig name. Precondition: the rig has it.
 size_t RigBone(std::string_view name);
 
-/// Rotation about the vertical that turns a body facing +z to where the pelvis faces; upside-down
-/// and lying bodies take the nearest sensible one.
+/// Rotation about the vertical from +z to the direction that the pelvis faces; for lying and
+/// upside-down bodies the nearest plausible one.
 Eigen::Quaterniond EstimateHeading(const RigPose& pose);
 
 /// The pose turned to face +z with its root above the origin (height kept).

@@ -53,13 +53,14 @@ struct DatabaseOptions {
 /// a copy.
 class PostureDatabase {
  public:
-  /// Of the file: 2. Version 1, which is read too, has other orientations (database_file.cpp).
+  /// File version. Version 1, which is also read, has another convention of orientations
+  /// (database_file.cpp).
   static constexpr uint32_t kVersion = 2;
 
   /// Normalises, retargets, filters within clips then between clips (Plantard 2016 algs. 1-4; with
   /// kSumSquared the same screening under Shum's distance) and connects. Departure: algorithm 2 as
-  /// printed keeps a posture that is far from any one other; the text's "same process" is meant,
-  /// far from all kept ones. Throws InputError when no finite posture is given. `stop` is called
+  /// printed keeps a posture that is far from any other one; the text's "same process" means far
+  /// from all kept ones. Throws InputError if there is no finite posture. `stop` is called
   /// regularly; once it returns true, the result is incomplete and must not be used.
   static PostureDatabase Build(const std::vector<PostureClip>& clips,
                                const DatabaseOptions& options,
@@ -74,7 +75,7 @@ class PostureDatabase {
   static bool IsFile(const std::filesystem::path& path);
 
   int size() const { return static_cast<int>(clip_of_.size()); }
-  /// 60 x size(): column i is posture i. Until the next Add.
+  /// 60 x size(), column i is posture i; valid until the next Add().
   using Postures =
       Eigen::Map<const Eigen::Matrix<float, kPostureDims, Eigen::Dynamic>, Eigen::Aligned16>;
   Postures postures() const { return {postures_.data(), kPostureDims, size()}; }
@@ -85,7 +86,7 @@ class PostureDatabase {
   const BoneLengths& bone_lengths_m() const { return bone_lengths_m_; }
   const std::string& clip_of(int i) const { return clip_names_[clip_of_[static_cast<size_t>(i)]]; }
   int clip_count() const { return static_cast<int>(clip_names_.size()); }
-  /// Filtered edges of node i, nearest first; both ways where no node has more than `most_edges`.
+  /// Filtered edges of node i, nearest first; symmetric unless a node has more than `most_edges`.
   std::span<const int32_t> neighbours(int i) const;
   int64_t edge_count() const { return static_cast<int64_t>(edges_.size()); }
   const DatabaseOptions& options() const { return options_; }

@@ -12,9 +12,9 @@ namespace ossa::recon {
 
 /// How recorded skeletons are read; for what a file does not state.
 struct SkeletonReadOptions {
-  /// Files that hold two skeletons side by side (UI-PRMD derived K_ and G_ columns, ITOP G_ and
-  /// P_): "truth" (also vicon) or "observed" (also kinect, estimate). Without it such a file is
-  /// refused. Alternatively given after the path: `s01.tar.gz#truth`.
+  /// For files with two skeletons side by side (UI-PRMD derived K_ and G_ columns, ITOP G_ and P_):
+  /// "truth" (also vicon) or "observed" (also kinect, estimate); without it they are refused. Also
+  /// possible after the path: `s01.tar.gz#truth`.
   std::string columns;
   /// One of SkeletonFormats(); "": recognised by content.
   std::string format;
@@ -34,14 +34,13 @@ struct SkeletonReadOptions {
 /// The names of all formats that are read, e.g. "jsonl", "ui-prmd-kinect".
 std::vector<std::string> SkeletonFormats();
 
-/// Reads one recording in any format that ossa knows, found by content: brought to our 20 joints,
-/// camera space (x to the sensor's left, y up, z forward), metres, the person's own left and right.
-/// `path` may carry `#truth` or `#observed` (see options) and, for a folder or an archive,
-/// `#MEMBER`: the recording of that name in it, with or without its extension; where there is none,
-/// what has that word as a whole name in its path, else what has it anywhere there. A path that
-/// exists as it stands is itself, else the longest part before a '#' that exists is what is read.
-/// Throws InputError in one line; an archive or a folder with several recordings is refused here.
-/// Without frames where options.stop ended it.
+/// Reads one recording in any known format, recognised by content. The result has the 20 SDK joints
+/// in camera space (x to the sensor's left, y up, z forward), metres, with the person's own left
+/// and right. `path` may end in `#truth` or `#observed` (see options) and, for a folder or an
+/// archive, in `#MEMBER`: the recording of that name, with or without extension; else one with that
+/// name as a component of its path; else one whose path contains it. The file is `path` itself if
+/// it exists, else the longest part before a '#' that exists. Throws InputError in one line, also
+/// for several recordings. Returns no frames if options.stop ended it.
 SkeletonSequence ReadSkeletons(const std::filesystem::path& path,
                                const SkeletonReadOptions& options = {});
 
@@ -68,10 +67,10 @@ SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& nam
                                     const SkeletonReadOptions& options = {});
 
 /// Writes by extension: .jsonl, .csv, .trc, .bvh, .glb (skeleton_writer.h). TRC and BVH hold one
-/// person a file: of several, the first goes to `path` and each other to `path` with `_ID` before
-/// the extension; all begin with the sequence's first frame. The file appears under its name only
-/// when complete. Throws InputError for a BVH that would be too long to be read: a gap in a
-/// recording is filled there.
+/// person per file: of several, the first is written to `path` and each other one to `path` with
+/// `_ID` before the extension; all begin with the sequence's first frame. Files appear under their
+/// names only when complete. Throws InputError for a BVH that would be too long to be read, because
+/// gaps are filled there.
 void WriteSkeletons(const std::filesystem::path& path, const SkeletonSequence& sequence);
 
 /// Throws InputError if WriteSkeletons would refuse the extension; to be called before a long run.

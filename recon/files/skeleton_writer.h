@@ -17,17 +17,16 @@ struct SkeletonWriteOptions {
   std::shared_ptr<const BodyMesh> body = {};  // the skin of a .glb; none: bones alone
 };
 
-/// Writes skeletons as they come, in the format that the extension names: .jsonl, .csv, .trc, .bvh,
-/// .glb. Memory does not grow with the recording but for eight bytes a frame of a .trc, .bvh or
-/// .glb; of a .bvh or .glb, whose head needs all of it, the postures wait in a file without a name
-/// (half a kilobyte a frame and person), and a .glb is put together in memory at the end. A .glb
-/// (glTF 2.0) is a skinned humanoid for each person, "person ID", at rest in a T-pose, in motion at
-/// the frames' own times from the first frame on, in the skeletons' own axes (camera space); who is
-/// out of view has no size. TRC and BVH hold one person a file: of several, the first goes to
-/// `path` and each other to `path` with `_ID` before the extension; all begin with the first frame.
-/// The files appear under their names at Finish(), whole; without it nothing is left. If the
-/// process is killed, what was written until then stays under the temporary name (AtomicFile):
-/// whole lines.
+/// Writes skeletons frame by frame, in the format of the extension: .jsonl, .csv, .trc, .bvh, .glb.
+/// Memory does not grow with the recording, except for eight bytes per frame of a .trc, .bvh or
+/// .glb. The postures of a .bvh or .glb are kept in an unnamed temporary file (half a kilobyte per
+/// frame and person), and a .glb is composed in memory at the end. A .glb (glTF 2.0) has a skinned
+/// humanoid per person, "person ID", with a T-pose at rest, animated at the frames' own times in
+/// the skeletons' axes (camera space); people out of view have scale 0. TRC and BVH hold one person
+/// per file: of several, the first is written to `path` and each other one to `path` with `_ID`
+/// before the extension; all begin with the first frame. The complete files appear under their
+/// names at Finish(); without it nothing is left. If the process is killed, complete lines stay
+/// under the temporary name (AtomicFile).
 class SkeletonWriter {
  public:
   /// Throws InputError for another extension and for a path that cannot be written.
@@ -40,18 +39,17 @@ class SkeletonWriter {
   /// Shape of a person by the surface fit (PersonShape); the last call counts. Only a .glb shows
   /// it; people without one have the mean shape.
   void SetShape(int id, const ShapeVector& shape);
-  /// Throws InputError for a .bvh or .glb of nobody, or that would be too long to be read: a gap in
-  /// a recording is filled in a .bvh. Throws DiskFull.
+  /// Throws InputError for a .bvh or .glb without people, and for one that would be too long to be
+  /// read (gaps are filled in a .bvh). Throws DiskFull.
   void Finish();
   /// Instead of Finish(), after DiskFull: ends the file after its last complete frame; a .bvh or
-  /// .glb after as many frames as there is room for, maybe a quarter less. Its temporary data on
-  /// the disk are moved to memory.
-  /// Returns the number of frames kept; with 0 no file is left.
+  /// .glb after as many frames as fit, or up to a quarter fewer. Its temporary data on the disk are
+  /// moved to memory. Returns the number of frames kept; with 0 no file is left.
   int64_t FinishWithWhatFits();
   /// Frames written.
   int64_t frame_count() const { return frame_count_; }
 
-  /// What one format does; see the functions above.
+  /// Implementation of a format.
   class Format;
 
  private:

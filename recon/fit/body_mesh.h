@@ -37,7 +37,7 @@ struct BodyMesh {
   static constexpr size_t kMostVertices = 16384;  // by hand: more would gain nothing
   static BodyMesh Load(const std::filesystem::path& path, const BodySurface& surface);
   void Save(const std::filesystem::path& path) const;
-  /// True when the file says that it is one; it may still be damaged.
+  /// Whether the file has the format's magic number; it may still be damaged.
   static bool IsFile(const std::filesystem::path& path);
 };
 

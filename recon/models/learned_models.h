@@ -44,7 +44,7 @@ struct LearnedModels {
   static LearnedModels Learn(const std::vector<PosturePair>& pairs, const LearnOptions& options,
                              const std::function<bool(int)>& progress = {});
   void Save(const std::filesystem::path& path) const;
-  /// True when the file says that it is one; it may still be damaged.
+  /// Whether the file has the format's magic number; it may still be damaged.
   static bool IsFile(const std::filesystem::path& path);
   static LearnedModels Load(const std::filesystem::path& path);
   /// Parses a payload. Older versions are still read, without the parts that they lack.

@@ -83,17 +83,17 @@ struct BvhExportOptions {
   size_t most_bytes = kMostBvhBytes;
 };
 
-/// One body of a skeleton file as a BVH of the 20 SDK joints, centimetres in the sequence's own
-/// axes (camera space), with constant bone lengths: the median of each bone over the frames. The
-/// direction of every bone is kept exactly and the whole is moved to lie nearest to the observed
-/// joints (least squares). A missing joint holds its bone's last direction; one that is not tracked
-/// is missing unless it has a reliability: then a method has placed it. Where bones branch,
-/// each has a joint of its own, without length, named after both ends ("HipCenter-Spine"), so that
-/// it can turn alone. A humanoid (BvhNames) has 21 joints and no such helpers: its thighs hang from
-/// the hips where they do in the mean, and hands end in end sites. It begins with the sequence's
-/// first frame, whoever is in it, and stands until the body is first seen: those of several people
-/// are in step with each other and the recording. Throws InputError when no frame has the body, or
-/// its text would surely exceed the options' bytes.
+/// Converts one body of a sequence to a BVH of the 20 SDK joints, centimetres in the sequence's own
+/// axes (camera space), with constant bone lengths: each bone's median over the frames. Bone
+/// directions are exact, and the body is translated to the least-squares fit of the observed
+/// joints. A missing joint keeps its bone's last direction; an untracked joint counts as missing
+/// unless a method has placed it (it has a reliability). Where bones branch, each has a helper
+/// joint of length zero, named after both ends ("HipCenter-Spine"), so that it can rotate alone. A
+/// humanoid (BvhNames) has 21 joints and no helpers: its thighs start at their mean positions
+/// relative to the hips, and hands are end sites. All files begin with the sequence's first frame,
+/// so that those of several people are synchronous; before the body is first seen it keeps its
+/// first pose. Throws InputError if no frame has the body, or if the text would exceed the options'
+/// bytes.
 BvhFile SkeletonToBvh(const SkeletonSequence& sequence, const BvhExportOptions& options = {});
 /// The same into a file, with one frame in memory at a time; the file appears under its name only
 /// when complete.
@@ -102,20 +102,18 @@ void WriteSkeletonAsBvh(const SkeletonSequence& sequence, const std::filesystem:
 
 struct BoneMapping;
 
-/// The 20 joints of a BVH where it has them, metres, of a body of its own size; each root that is a
-/// person is a body, ids 1, 2, ... A BVH with the SDK's joints (as SkeletonToBvh makes them) has
-/// them by name, in centimetres. Of any other, joints are found by name (FindBones):
-///  - HipCenter, Head, shoulders, elbows, wrists, hips, knees, ankles are where its joints are;
-///    ShoulderCenter is the first joint of the neck, or between the shoulders without one; feet are
-///    the toe joints;
-///  - Spine lies on the line through the joints between hips and neck, as far along it as on the
-///    standard body;
-///  - hands, and feet without toe joint, lie towards what follows the wrist or ankle (the middle of
-///    its children, or its end site), as far as is usual for the forearm or shin.
-/// Its unit is the one in which the legs have a person's length: centimetres if they may, else
-/// metres, millimetres, inches or the CMU's (0.45 inch), with a warning. y is up, or z where the
-/// figure clearly stands along it, with a warning. Throws InputError for unknown names. The BVH is
-/// taken, so that a long one need not be there beside the skeletons.
+/// Reads the 20 joints of a BVH, as far as it has them, in metres; each root that is a person is a
+/// body, with ids 1, 2, ... In a BVH with the SDK's joints (as SkeletonToBvh writes) they are found
+/// by name, in centimetres. In others, bones are found by name (FindBones): - HipCenter, Head,
+/// shoulders, elbows, wrists, hips, knees, ankles are where its joints are; ShoulderCenter is the
+/// first joint of the neck, or between the shoulders without one; feet are the toe joints; - Spine
+/// lies on the line through the joints between hips and neck, as far along it as on the standard
+/// body; - hands, and feet without toe joint, lie towards what follows the wrist or ankle (the
+/// middle of its children, or its end site), as far as is usual for the forearm or shin. The unit
+/// is the one in which the legs have human length: centimetres if possible, else metres,
+/// millimetres, inches or the CMU's (0.45 inch), with a warning. y is up, or z, with a warning, if
+/// the figure clearly stands along it. Throws InputError for unknown names. The BVH is consumed, to
+/// save memory.
 SkeletonSequence BvhToSkeleton(BvhFile bvh, const std::string& source,
                                const BoneMapping* mapping = nullptr);
 

@@ -22,9 +22,9 @@ struct MocapOptions {
 };
 
 /// Loads every clip of the sources: a folder of BVH, of AMC beside their ASF, of pybullet humanoid
-/// JSON texts, or the words "authored" and "authored-floor" (key postures with seeded variation,
-/// ossa's own: upright, and lying, kneeling, crawling and the like). Clips come
-/// sorted by name, so the same input gives the same list. Throws InputError naming file and line.
+/// JSON texts, or the words "authored" and "authored-floor" (ossa's own key postures with seeded
+/// variation: upright; lying, kneeling, crawling). Clips are sorted by name. Throws InputError
+/// naming file and line.
 std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
                                   const MocapOptions& options = {});
 

@@ -8,12 +8,10 @@
 
 namespace ossa::recon {
 
-/// Estimates a person's bone lengths with a network, from the joints of the refinement cascade in
-/// one frame. The distance between two estimated joints differs from the bone length, the more the
-/// less is visible. These errors depend on the pose, and bone lengths are correlated; both are
-/// learned from rendered people of many shapes.
-///
-/// The end joints of estimated bones: the left one stands for both of a pair.
+// Estimates a person's bone lengths with a network, from the joints of the refinement cascade in
+// one frame. The distance between two estimated joints differs from the bone length, the more the
+// less is visible. These errors depend on the pose, and bone lengths are correlated; both are
+// learned from rendered people of many shapes.
 
 /// The joints in which estimated bones end: of a pair the left one stands for both.
 inline constexpr std::array<Joint, 11> kEstimatedBones = {

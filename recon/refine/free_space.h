@@ -7,8 +7,9 @@ namespace ossa::recon {
 
 // Constants: chosen on eight rendered performances of validation subjects.
 
-/// Limits of moving a joint to satisfy the free-space constraint, metres, > 0. On eight rendered
-/// performances of validation subjects inwards_m was varied from 0 to 6 cm, before_m from 4 to 15.
+/// Limits of moving a joint to satisfy the free-space constraint, metres, > 0. Chosen on eight
+/// rendered sequences of validation subjects: inwards_m was varied from 0 to 6 cm, before_m from 4
+/// to 15.
 struct FreeSpaceOptions {
   double before_m = 0.08;   // free space: every surface around is this much farther away
   double reach_m = 0.4;     // search radius perpendicular to the line of sight

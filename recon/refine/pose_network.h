@@ -50,7 +50,7 @@ class PoseNetwork {
   static PoseNetwork Load(const std::filesystem::path& path);
   static PoseNetwork FromBytes(std::span<const std::byte> bytes, const std::string& name);
   void Save(const std::filesystem::path& path) const;
-  /// True when the file says that it is one; it may still be damaged.
+  /// Whether the file has the format's magic number; it may still be damaged.
   static bool IsFile(const std::filesystem::path& path);
   /// From the numbers that tools/learning/train_pose_network.py writes: for each layer its inputs,
   /// outputs, size and stride, weights and bias. Throws InputError that names `name`.

@@ -132,7 +132,7 @@ struct RefinementCascade {
   static RefinementCascade FromBytes(std::span<const std::byte> bytes, const std::string& name,
                                      uint32_t version = kVersion);
   void Save(const std::filesystem::path& path) const;
-  /// True when the file says that it is one; it may still be damaged.
+  /// Whether the file has the format's magic number; it may still be damaged.
   static bool IsFile(const std::filesystem::path& path);
 };
 

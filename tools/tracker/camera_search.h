@@ -23,7 +23,7 @@ class CameraSearch {
   void AddImage(depth::DepthFrame frame);
   /// Enough images with people were tracked.
   bool is_sure() const { return images_ >= kEnough; }
-  /// Index of the camera to take.
+  /// Index of the selected camera.
   size_t Best() const;
 
  private:
@@ -46,10 +46,10 @@ std::string Describe(const CameraFinding& finding);
 std::string CameraText(const depth::CameraGuess& camera);
 
 /// For a folder of images, or one image, without a stated camera: whether one of
-/// depth::NarrowerCameras took them, by some of its images. Nothing where the default is kept,
-/// where there is no alternative, and for other sources. `tracker_options` is called only where
-/// there is an alternative; `idle` ends the search by returning false. Throws InputError as
-/// depth::OpenSource does.
+/// depth::NarrowerCameras took them, by some of its images. Empty if the default is kept, if there
+/// is no alternative, and for other sources. `tracker_options` is called only if there is an
+/// alternative; `idle` ends the search by returning false. Throws InputError as depth::OpenSource
+/// does.
 std::optional<CameraFinding> FindNarrowerCamera(
     const std::string& source, const depth::SourceOptions& options,
     const std::function<TrackerOptions()>& tracker_options, const std::function<bool()>& idle);

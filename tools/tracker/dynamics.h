@@ -7,10 +7,10 @@
 
 namespace ossa::tracker {
 
-/// Estimates the floor of a recording that has none from people who stand straight: up is from the
-/// ankles to the shoulders, the height is the median of the lower foot over all such frames. a b c
-/// d of ax + by + cz + d = 0, unit normal up; nothing with fewer than 15 such postures. Sensors'
-/// joints are off by some centimetres, and so is this floor.
+/// Estimates the floor of a recording without one from people who stand straight: up is from ankles
+/// to shoulders, the height is the median of the lower foot over these frames. a b c d of ax + by +
+/// cz + d = 0, unit normal up; empty for fewer than 15 such postures. As accurate as the sensor's
+/// joints: some centimetres.
 std::optional<Eigen::Vector4d> EstimateFloor(const recon::SkeletonSequence& sequence);
 
 /// Writes the inverse dynamics (physics::ComputeDynamics) of a sequence made by FollowMechanically:

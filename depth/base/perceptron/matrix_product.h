@@ -3,7 +3,7 @@
 
 namespace ossa {
 
-/// A row an example, a column a feature.
+/// One row per example, one column per feature.
 using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// a · b. Every sum runs over the inner index from its start to its end, one product after another:

@@ -18,15 +18,14 @@ struct Perceptron {
   Eigen::RowVectorXf input_mean, input_scale;  // scale: 1 / standard deviation
   std::vector<PerceptronLayer> layers;         // the last one's outputs are not rectified
 
-  /// Without layers it says nothing, and must not be run.
+  /// True without layers; such a perceptron must not be run.
   bool empty() const { return layers.empty(); }
   RowMatrix Run(const Eigen::Ref<const RowMatrix>& inputs) const;
-  /// What the first layer gets of inputs: about their mean, in standard deviations; outliers are
-  /// cut off at kMostDeviations.
+  /// The inputs of the first layer: centred, in standard deviations, clipped to +-kMostDeviations.
   RowMatrix Normalise(const Eigen::Ref<const RowMatrix>& inputs) const;
 
-  /// Standard deviations. What was never seen in training is taken for the most that was. Chosen by
-  /// hand; part of every shipped model.
+  /// Bound of normalised inputs, standard deviations, because inputs outside the range of training
+  /// are meaningless. Chosen by hand; part of every shipped model.
   static constexpr float kMostDeviations = 5.0F;
 };
 

@@ -8,16 +8,13 @@
 
 namespace ossa {
 
-/// Cascaded pose regression (Dollar et al. 2010): each stage moves the points of a pose by offsets
-/// that networks regress from features of the previous pose. The forest's second stage and all
-/// stages of the refinement cascade at the depth image use this code; they differ in the features
-/// of their networks.
-///
+// Cascaded pose regression (Dollar et al. 2010): each stage moves the points of a pose by offsets
+// that networks regress from features of the previous pose. The forest's second stage and all
+// stages of the refinement cascade at the depth image use this code; they differ in the features
+// of their networks.
+
 /// A coordinate frame centred on the person: offsets and features in it do not depend on the
 /// person's position in the image.
-
-/// Axes that stand in the person: wherever in the image somebody stands, offsets and features in
-/// them are the same.
 struct ViewFrame {
   Eigen::Matrix3d frame_from_camera = Eigen::Matrix3d::Identity();  // z along the ray, x level
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();               // origin, camera space
