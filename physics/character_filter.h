@@ -58,7 +58,7 @@ class CharacterFilter {
 
   /// `target`: camera space or any other right-handed frame, `floor` in the same. `weight`: one
   /// entry per joint in [0, 1], empty: all 1. NaN joints are allowed. `dt_s`: seconds since the
-  /// last step; after more than 0.25 s the character starts anew. `orientation`: see World.
+  /// last step; after more than 0.25 s the character restarts. `orientation`: see World.
   FilteredPosture Step(const recon::Posture& target, std::span<const double> weight,
                        const std::optional<Eigen::Vector4d>& floor, double dt_s,
                        const std::optional<recon::JointOrientations>& orientation = std::nullopt);

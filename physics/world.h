@@ -174,7 +174,7 @@ class World {
   /// Lets the character fall: no control until the next SetTarget.
   void StopControl(int character);
   /// Puts the character into the posture, at rest. An object that it holds moves along, at rest,
-  /// too (of several characters that hold it, with the first; the others let go). Constraints stay
+  /// too (if several characters hold it, with the first; the others release it). Constraints stay
   /// at their positions and pull from there; pending impulses are discarded. `orientation` as in
   /// SetTarget.
   void Place(int character, const recon::Posture& posture,

@@ -7,8 +7,8 @@
 
 namespace ossa::recon {
 
-/// 20 joint positions, metres, one per Joint in enum order. The name of the variable tells the
-/// frame (camera space, world, or normalised).
+/// 20 joint positions, metres, one per Joint in enum order. The variable's name contains the frame
+/// (camera space, world, or normalised).
 struct Posture {
   JointArray<Eigen::Vector3d> position_m;
 

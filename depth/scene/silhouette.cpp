@@ -9,8 +9,8 @@ namespace {
 
 enum class Beside { kItself, kImageBorder, kFarther, kNearer };
 
-// What is next to a cell of the region in one direction of the image, beyond the shadow of an edge
-// (the projector's baseline leaves several cells without measurements).
+// The surface next to a cell of the region in one direction of the image, beyond the shadow of an
+// edge (the projector's baseline leaves several cells without measurements).
 Beside LookBeside(const PointGrid& grid, const std::optional<FloorPlane>& floor,
                   const std::vector<uint8_t>& member, int from, std::array<int, 2> side,
                   const SilhouetteOptions& options) {

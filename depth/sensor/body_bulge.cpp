@@ -45,7 +45,7 @@ Stretch StretchAt(const Line& line, int i) {
   return stretch;
 }
 
-// What is next to an end of a stretch, beyond a projector's shadow.
+// The depth next to an end of a run, beyond a projector's shadow.
 enum class Beside { kNothing, kLarger, kSmaller, kSame };
 
 Beside LookBeside(const Line& line, int end, int step) {

@@ -50,7 +50,7 @@ bool AreWhole(const std::vector<TableFrame>& frames) {
 /// Seconds per unit of the time column.
 double SecondsPerUnit(const RowClock& clock, const std::vector<TableFrame>& frames, double frame_s,
                       SkeletonSequence& sequence) {
-  // By hand: nobody records less than one frame in two seconds; integers that grow by one or two
+  // By hand: recordings have at least one frame in two seconds; integers that grow by one or two
   // are frame numbers.
   constexpr double kLongestStep_s = 2.0, kLongestFrames = 2.0, kSecondsPerMillisecond = 1e-3;
   const double step = MedianStep(frames);

@@ -30,7 +30,7 @@ struct SkeletonInput {
   double FrameTime_s(double usual_s) const { return frame_s > 0 ? frame_s : usual_s; }
 };
 
-/// The beginning of a file, for telling formats apart.
+/// The beginning of a file, for recognising its format.
 struct SkeletonSample {
   std::string_view name;  // of the file
   std::string_view head;  // its first 64 KiB at most

@@ -145,7 +145,7 @@ void CheckTimes(const SkeletonSequence& sequence, const std::string& name) {
                   name, still, frames.size()));
 }
 
-/// Whether frames are where no count of such steps puts them: their file says when they were.
+/// Whether the file states times that are not multiples of this step.
 bool StatesOtherTimes(const SkeletonSequence& sequence, double frame_s) {
   constexpr double kOff = 0.01;  // steps, by hand: of rounded times
   const auto& frames = sequence.frames;

@@ -47,7 +47,7 @@ class HoltFilter {
 /// The two parameters of the One-Euro filter, and the speed that it uses.
 struct OneEuroOptions {
   double min_cutoff_hz =
-      1.5;  // at rest, > 0; by hand, as Casiez 2012 says: until a still joint does not jitter
+      1.5;  // at rest, > 0; by hand, as in Casiez 2012: until a resting joint does not jitter
   double beta_per_m = 4.0;  // Hz more per m/s, >= 0; by hand, until a fast one does not lag
   /// True: speed between measurements. False: from the last estimate to the new measurement.
   bool speed_of_measurements = true;

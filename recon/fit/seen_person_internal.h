@@ -24,7 +24,7 @@ class SeenPerson {
   /// Weight factor that normalises more than most_pixels pixels to the weight of most_pixels.
   double pixel_share() const { return pixel_share_; }
 
-  /// What the camera sees at the projection of a point.
+  /// Visibility of a point at its projection.
   enum class Sight {
     kNothing,    // outside the image or the grid, or behind the camera
     kPerson,     // this person's surface

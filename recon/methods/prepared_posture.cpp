@@ -103,8 +103,8 @@ BodySize Person::FreshSize() const {
   return size;
 }
 
-// At first somebody stands as they turn their shoulders or hips: who is seen from behind has no
-// left arm on the right.
+// In the first frame the model is a standing posture in the person's heading, so that sides are
+// right for people seen from behind.
 Posture Person::ModelOf(const Posture& seen, const JointWeights& present) const {
   if (last_in_camera_) return *last_in_camera_;
   return StanceInCamera(size_.lengths_m(), EstimatePlacement(seen, present, last_yaw_rad_).yaw_rad);

@@ -31,7 +31,7 @@ constexpr std::array<std::pair<int, int>, 15> kLines = {{{0, 1},
                                                          {16, 12},
                                                          {2, 4},
                                                          {2, 8}}};
-// Constants: chosen on people of UI-PRMD left out, where it says so, else by hand.
+// Constants: chosen on left-out people of UI-PRMD where stated, else by hand.
 
 constexpr double kDirectionScale = 0.3;  // the end of a rotated bone moves by about as many metres
 // A bone 10 cm too short weighs as much as one rotated by 60 degrees. Best of 1, 3, 5 on held-out

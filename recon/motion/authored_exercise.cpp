@@ -30,7 +30,7 @@ void Elevate(ArmKey& arm, double elevation, double plane) {
   arm.flex = std::atan2(level * std::sin(plane * kDegree), -up) / kDegree;
 }
 
-/// What the arms do while the legs work; drawn once for a clip.
+/// Motion of the arms during leg exercises; drawn once per clip.
 enum class Arms {
   kHanging,
   kForwards,

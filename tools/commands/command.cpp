@@ -95,7 +95,7 @@ void Parse(CLI::App& app, int argc, char** argv) {
     throw UsageError(
         fmt::format("{} ({}see 'ossa {} --help')", error.what(), SuggestOption(app), command));
   } catch (const CLI::RequiredError& error) {
-    // What is missing may be there under a name that was mistyped.
+    // A missing option may be present under a mistyped name.
     const std::string unknown = FindUnknownOption(app);
     throw UsageError(fmt::format("{}{} ({}see 'ossa {} --help')", error.what(),
                                  unknown.empty() ? "" : ", and " + unknown + " was not expected",

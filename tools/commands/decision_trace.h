@@ -16,7 +16,7 @@ class DecisionTrace {
   explicit DecisionTrace(const std::string& path);
   /// Throws DiskFull.
   void Write(const tracker::BodyFrame& bodies);
-  /// On a full disk keeps the complete frames; throws InputError that says how many.
+  /// On a full disk keeps the complete frames; throws InputError that states their number.
   void Finish();
 
  private:

@@ -47,7 +47,7 @@ void CheckFit(const FitArguments& arguments, const FitNeeds& needs) {
   }
 }
 
-// A person's shape is told to a fit, and told by one.
+// --person and --save-person need a surface fit.
 void CheckPeople(const FitArguments& arguments, const std::string& save_person,
                  const FitNeeds& needs) {
   const bool has_any = !arguments.people.empty() || !save_person.empty();

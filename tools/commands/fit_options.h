@@ -23,7 +23,7 @@ struct FitArguments {
 /// --fit and --person.
 void AddFitOptions(CLI::App& app, FitArguments& arguments);
 
-/// What else says whether there can be a fit.
+/// The other options that a surface fit depends on.
 struct FitNeeds {
   const tracker::ModelFiles& files;
   const std::string& method;

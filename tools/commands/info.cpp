@@ -46,7 +46,7 @@ struct FileKind {
   void (*show_with)(const fs::path&, const recon::BodySurface&) = nullptr;
 };
 
-// What a forest contains besides trees and proposals.
+// Optional content of a forest, besides trees and proposals.
 std::string DescribeStages(const forest::ForestData& data) {
   std::string text = "no pose priors";
   if (!data.pose_priors.empty()) {

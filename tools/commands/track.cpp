@@ -150,7 +150,7 @@ void TrackAvailableFrames(depth::FrameSource& source, tracker::Tracker& tracker,
   while (const auto held = tracker.DrainLag()) to.Deliver(*held, run);
 }
 
-/// An output that did not fit says so when it is finished, as the others are.
+/// Finishes all outputs; one that did not fit on the disk throws.
 void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
               Destinations& to, Run& run) {
   try {
@@ -248,7 +248,7 @@ InputError InterruptedEarly(const TrackOptions& options, const Run& run) {
                                 FramesText(run.stats.frames(), run.of), where));
 }
 
-/// What is known of the people before the first frame.
+/// Known shapes and bones of people before the first frame.
 void SetKnownPeople(TrackOptions& options) {
   options.tracker.shapes = ReadPeople(options.fit, *options.tracker.models);
   if (options.bones.of_recording()) options.tracker.bones_m = MeasureBones(options);

@@ -73,7 +73,7 @@ void CheckRefinementIsRead(const TrackOptions& options) {
   PrintNotRead("--refinement", options.tracker.method);
 }
 
-// Nobody waits for a recording's bodies, which are nearer to the truth and steadier with lag.
+// Recordings can wait: with lag, bodies are more accurate and steadier.
 int DefaultLag(const TrackOptions& options) {
   constexpr int kMost = 2;  // frames; measured: docs/benchmarks/reconstruction.md, frames of lag
   const bool smoothed = RequireMethodInfo(options.tracker.method).smoothed_in_files;
@@ -215,7 +215,7 @@ void CheckFiles(const TrackOptions& options) {
                inputs);
 }
 
-// What the options say, in the tracker's own terms.
+// Converts the command's options to the tracker's.
 tracker::TrackerOptions MakeTrackerOptions(const TrackOptions& options) {
   tracker::TrackerOptions made = options.tracker;
   made.turn = ChooseTurn(options.source);

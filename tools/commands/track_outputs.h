@@ -21,7 +21,7 @@ class SkeletonOutput {
   explicit SkeletonOutput(const TrackOptions& options);
   /// Throws DiskFull.
   void Write(const tracker::BodyFrame& bodies);
-  /// Of what did not fit, what was whole before it: throws InputError that says how much.
+  /// After DiskFull keeps the complete frames; throws InputError that states their number.
   void Finish();
 
  private:
@@ -57,7 +57,7 @@ class PersonKeeper {
  public:
   explicit PersonKeeper(const TrackOptions& options);
   void Take(const tracker::BodyFrame& bodies);
-  /// Throws InputError if nobody was fitted.
+  /// Throws InputError if no person was fitted.
   void Finish(const TrackOptions& options) const;
   /// For an assumed camera: prints, unless quiet, if the most fitted person has an implausible
   /// adult stature, and the presets with which it would be plausible.
@@ -68,7 +68,7 @@ class PersonKeeper {
     recon::PersonShape shape;
     int64_t fits = 0;
   };
-  /// The person with the most fits, by id; null: nobody.
+  /// The person with the most fits, by id; null if there is none.
   const std::pair<const int, Kept>* FindMostFitted() const;
 
   std::string path_;

@@ -38,7 +38,7 @@ uint64_t Fnv1a(const std::string& text) {
   return hash;
 }
 
-// "motion FOLDER: terms", as ossa render says them, by the folder's name alone.
+// "motion FOLDER: terms" as from `ossa render`, by the folder's name alone.
 std::string TermsWithoutFolders(const std::string& terms) {
   constexpr std::string_view kMotion = "motion ";
   const size_t colon = terms.find(": ");

@@ -79,7 +79,7 @@ recon::SkeletonSequence Read(const std::string& path, double fps) {
 viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   viewer::ViewerOptions with = PageOptions(options.page);
   with.name = std::filesystem::path(options.source.name).filename().string();
-  // What a camera's URI asks of its driver is no part of its name.
+  // The driver's options in a camera's URI are not part of its name.
   if (IsDevice(options.source.name)) with.name = with.name.substr(0, with.name.find('?'));
   if (with.name.empty()) with.name = options.source.name;
   with.body = LoadSkin(options.files.surface, options.mesh);
@@ -135,7 +135,7 @@ void ShowSkeletons(const ViewOptions& options) {
   WaitUntilInterrupted();
 }
 
-// The tracker of a page: its frames go there, and what is chosen there it does.
+// The tracker behind a page: sends its frames to the page and applies the page's settings.
 class PageTracker {
  public:
   explicit PageTracker(const ViewOptions& options)

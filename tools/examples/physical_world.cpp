@@ -1,5 +1,5 @@
-// A small physical world without a camera: somebody stands at a table, picks a mace off it by a
-// hold that can break, and a ball that falls beside them is told of. Then time goes back. With a
+// A small physical world without a camera: a standing person picks a mace from a table by a hold
+// that can break, and the contact of a falling ball is reported. Then the state is restored. With a
 // camera the targets come from a Tracker's bodies (ToPosture) instead of StandardStance.
 #include <algorithm>
 #include <cstdio>

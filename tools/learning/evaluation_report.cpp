@@ -62,7 +62,7 @@ std::string CalibrationTable(const std::string& heading, const Calibration& cali
   return html + "</table>\n";
 }
 
-// A confidence that is what it says lies on the diagonal.
+// A calibrated confidence lies on the diagonal.
 std::string CalibrationPlot(const Evaluation& e) {
   std::vector<Series> lines = {{"as often right as it says", {0, 100}, {0.0, 100.0}}};
   const auto add = [&](const char* name, const Calibration& calibration) {

@@ -33,7 +33,7 @@ double AverageKnown(std::span<const double> values) {
   return count > 0 ? sum / count : kUnknown;
 }
 
-// The 31 parts of a table by label: neither background nor `other`, which is nobody's body.
+// The 31 parts of a table by label: without background and `other`.
 template <typename Table>
 auto PartsOf(const Table& by_label) {
   return std::span(by_label).subspan(1, recon::kPartCount);

@@ -37,7 +37,7 @@ constexpr std::array<uint8_t, kRigBoneCount> kHumanBoneOfBone = {
     4, 5, 6,  7,  8,  8,  8, 8,  9,  10, 11, 12, 12, 12, 12};
 // By hand, radians: people turn their joints a little more than those who were recorded.
 constexpr double kMoreTurn_rad = 0.1;
-// By hand, a factor: joints count more than points in what a component of shape is.
+// By hand, a factor: joints have more weight than points in the shape components.
 constexpr double kJointShare = 3.0;
 
 // Vertices of the skin, each as far as can be from those before it.

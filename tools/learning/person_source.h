@@ -21,7 +21,8 @@ uint8_t FacingSector(const recon::Posture& joints_m);
 /// in steps of 45°; sector 0 faces its upper border.
 uint8_t HeadingSector(const recon::Posture& joints_m);
 
-/// What a forest for people is trained to tell: 31 parts and `other`, facing sectors, SDK joints.
+/// Classes, contexts and targets of a forest for people: 31 parts and `other`, facing sectors, SDK
+/// joints.
 forest::TrainingVocabulary BodyVocabulary();
 
 /// One person of a labelled frame, cut out. An image of no pixels when the body has none.

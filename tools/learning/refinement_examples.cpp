@@ -122,9 +122,8 @@ class Gatherer {
     return input.floor ? std::optional(input) : std::nullopt;
   }
 
-  // After the stages that are known already. Frames before one would have told the bones about as
-  // well as the frame itself does, or somewhat better: from none to half of its error is taken
-  // away.
+  // Runs the earlier stages. Earlier frames would estimate the bones as well as this frame or
+  // better: a random share, up to half, of its error is removed.
   std::optional<recon::RefinementInput> RunStages(recon::RefinementInput input,
                                                   const recon::BoneLengths& true_m,
                                                   Random& random) const {

@@ -11,12 +11,12 @@
 
 namespace ossa::tools {
 
-/// A person where the forest and the stages known already put the joints; how far from there the
-/// joints are; the person's true bones, and what the stages known
-/// already would read of them.
+/// A training example of a stage: the person with the joints of the forest and the earlier stages,
+/// the offsets to the true joints, the true bone lengths, and the bone lengths that earlier stages
+/// would read.
 struct RefinementExample {
   recon::SampledPerson person;
-  recon::JointArray<Eigen::RowVector3f> offset{};  // as a stage is to say it
+  recon::JointArray<Eigen::RowVector3f> offset{};  // the stage's target
   recon::BoneLengths bones_m{};
   recon::BoneLengths given_bones_m{};  // the true ones where nothing estimates them yet
 };

@@ -12,7 +12,7 @@ namespace {
 
 // Constants: of the Kinect v1's range.
 
-// As far as the tracker's regions reach over what was not measured: depth::kStepsOverGaps.
+// Gaps that the tracker's regions bridge: depth::kStepsOverGaps.
 constexpr int kCellsOver = 2;
 
 bool IsContinuous(uint16_t a_mm, uint16_t b_mm) {

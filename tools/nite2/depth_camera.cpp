@@ -161,7 +161,7 @@ DepthCamera::Geometry DepthCamera::geometry() const {
   return geometry_;
 }
 
-// Seconds that never run backwards, as those of a recording do that begins anew.
+// Seconds that never run backwards, unlike those of a recording that restarts.
 double DepthCamera::TimeOf(const OniFrame& frame) {
   constexpr double kPeriod_s = 1.0 / 30.0;  // of the usual camera, by convention
   const double sensor_s = static_cast<double>(frame.timestamp) * kMicrosecond;

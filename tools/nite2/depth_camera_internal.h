@@ -13,8 +13,8 @@
 
 namespace ossa::nite2 {
 
-/// Gives an OniFrame back to OpenNI2, unless somebody else has done so: the PyPI package openni
-/// releases depth frames that it holds no reference to.
+/// Returns an OniFrame to OpenNI2, unless it was returned already: the PyPI package openni releases
+/// depth frames to which it holds no reference.
 class OniFrameReleaser {
  public:
   OniFrameReleaser() = default;
@@ -22,7 +22,7 @@ class OniFrameReleaser {
   void operator()(OniFrame* frame) const;
 
  private:
-  // What tells the frame from another one in its place.
+  // Identifies the frame, in case its memory is reused.
   const void* data_ = nullptr;
   int index_ = 0;
   uint64_t timestamp_us_ = 0;
@@ -92,7 +92,7 @@ class DepthCamera {
   std::function<void()> on_frame_;
   int64_t frames_ = 0;
   uint64_t last_us_ = 0;
-  double offset_s_ = 0.0;  // our time minus the sensor's, whose clock may begin anew
+  double offset_s_ = 0.0;  // our time minus the sensor's, whose clock may restart
 };
 
 }  // namespace ossa::nite2

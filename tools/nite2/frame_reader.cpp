@@ -45,7 +45,7 @@ void FrameReader::Run() {
   }
 }
 
-// One wait for whatever is wanted now; a short one, so that what is wanted next joins it soon.
+// One short wait for all streams that are requested now, so that new requests join soon.
 void FrameReader::Serve(std::unique_lock<std::mutex>& lock) {
   constexpr milliseconds kSlice{10};  // by hand
   for (Want* want : std::deque<Want*>(wants_)) {

@@ -20,7 +20,7 @@ struct GestureOptions {
   double swing_m = 0.08;  // a wave's least way between two turns
   int swings = 4;         // turns within ...
   double wave_s = 2.5;    // ... this time
-  double push_m = 0.15;   // how far a click goes along the arm, and half of it back
+  double push_m = 0.15;   // length of a click along the arm, and half of it back
   double push_s = 0.6;    // how long either way may take
   double aside_m = 0.12;  // how far a click may stray sideways
   double towards =
@@ -47,7 +47,7 @@ class GestureDetector {
 
   NiteGestureType type_;
   GestureOptions options_;
-  bool begun_ = false;     // told of as NEW
+  bool begun_ = false;     // reported as NEW
   bool complete_ = false;  // the last step completed it
   // Wave: where the hand turned last, which way it goes, and when it turned.
   double extreme_m_ = 0.0;
@@ -61,7 +61,7 @@ class GestureDetector {
     double end_s = 0.0;      // when it was there
   };
   std::optional<Push> pushed_;
-  // Raise: since when, and whether this one was told of.
+  // Raise: since when, and whether it was reported.
   std::optional<double> raised_s_;
   bool told_ = false;
 };

@@ -103,7 +103,7 @@ std::vector<NiteGestureData> GestureWatch::Step(const std::vector<SeenHand>& see
                                                 const std::set<NiteGestureType>& wanted,
                                                 bool mirrored) {
   std::vector<NiteGestureData> all;
-  decltype(detectors_) still_there;  // what a hand did before it was away says nothing
+  decltype(detectors_) still_there;  // motion before a hand was lost does not count
   for (const SeenHand& hand : seen) {
     if (!hand.moves_count) continue;
     for (const NiteGestureType type : wanted) {

@@ -42,8 +42,8 @@ class FollowedHands {
   /// Positions of requested hands that were not found yet, camera space.
   std::vector<Eigen::Vector3d> WaitedFor() const;
 
-  /// All of them after a frame; one that is lost is told of once. `smoothing`: part of the last
-  /// place in the next, [0, 1].
+  /// All hands after a frame; a lost one is returned once more. `smoothing`: weight of the previous
+  /// position, [0, 1].
   std::vector<NiteHandData> Step(const std::vector<SeenHand>& seen, double time_s,
                                  const depth::Camera& camera, float smoothing, bool mirrored);
 

@@ -10,11 +10,12 @@ namespace ossa::nite2 {
 
 // Constants: by hand.
 
-inline constexpr size_t kRetired = 8;     // frames kept after their end, for who still looks at one
+inline constexpr size_t kRetired =
+    8;  // frames kept after their end, for programs that still use one
 inline constexpr size_t kHalfHeld = 120;  // frames that were released too seldom: four seconds
 
 /// The frames that a program holds, with reference counts. Unknown frames are reported: those
-/// released twice, or after their tracker. `Stored` has a member `frame`, what the program sees,
+/// released twice, or after their tracker. `Stored` has a member `frame`, which the program sees,
 /// and `delivered`, the depth frame.
 ///
 /// The PyPI package openni takes two references to every frame and releases one: a frame that was

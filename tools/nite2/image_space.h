@@ -18,9 +18,8 @@ NiteQuaternion TurnToNite(const Eigen::Quaterniond& rotation, bool mirrored);
 /// The floor's plane, and the point of it nearest to the sensor.
 NitePlane FloorToNite(const Eigen::Vector4d& floor, bool mirrored);
 
-/// The 15 joints of a body that is fully tracked. Confidence is 1 for what is seen, 0.5 for what is
-/// guessed from around it, 0 for what is merely plausible. Orientations are turns away from a
-/// T-pose that faces the sensor.
+/// The 15 joints of a body that is fully tracked. Confidence is 1 for tracked joints, 0.5 for
+/// inferred ones, 0 for others. Orientations are rotations from a T-pose that faces the sensor.
 void FillJoints(const tracker::Body& body, bool mirrored, NiteSkeletonJoint* joints);
 
 }  // namespace ossa::nite2

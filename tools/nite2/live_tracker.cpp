@@ -12,7 +12,7 @@ using std::chrono::milliseconds;
 
 // Constants: by hand.
 
-constexpr milliseconds kPatience{2000};  // then a camera that says nothing is an error
+constexpr milliseconds kPatience{2000};  // after this time without frames a camera is an error
 constexpr milliseconds kSlice{100};      // between looks whether the tracker is closed
 
 tracker::TrackerOptions MakeOptions(const tracker::ModelSet& models) {

@@ -55,7 +55,7 @@ class LiveTracker : public std::enable_shared_from_this<LiveTracker> {
   std::recursive_mutex telling_;  // held while callbacks run; guards `callbacks_`
   std::vector<Callback> callbacks_;
   std::mutex watching_;  // guards `told_`
-  bool told_ = false;    // whether the camera tells of frames
+  bool told_ = false;    // whether the camera reports frames
 };
 
 }  // namespace ossa::nite2

@@ -23,7 +23,8 @@ class Cells {
   }
   double Area_m2(size_t cell) const { return std::pow(points_m_[cell].z() * cell_rad_, 2); }
 
-  // Calls visit(neighbour, whether the surface goes on there) for the up to four beside a cell.
+  // Calls visit(neighbour, whether the surface continues there) for the up to four neighbours of a
+  // cell.
   template <typename Visit>
   void ForNeighbours(size_t cell, const Visit& visit) const {
     const size_t x = cell % width_, y = cell / width_;
@@ -81,12 +82,12 @@ std::optional<size_t> Cells::Nearest(const Eigen::Vector3d& place_m, double most
   return nearest;
 }
 
-// What is connected with a cell within a ball about it, and where it goes on.
+// The connected surface around a cell within a ball, and where it continues.
 struct Piece {
   std::vector<size_t> cells;
   std::vector<size_t> ends;  // cells at the ball's surface or the image's border
   int border = 0;            // sides of cells where the piece ends
-  int cut = 0;               // of them: where the surface goes on beyond the ball
+  int cut = 0;               // of these, sides where the surface continues beyond the ball
 };
 
 Piece GrowRegion(const Cells& cells, size_t seed, double radius_m) {

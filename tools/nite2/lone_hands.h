@@ -12,32 +12,32 @@ namespace ossa::nite2 {
 
 /// Thresholds for hands without a body; by hand.
 struct LoneHandOptions {
-  int across = 160;          // cells from the image's left to its right that are looked at
-  double farthest_m = 1.5;   // whoever stands farther off is in view from the waist up
+  int across = 160;          // cells across the width of the image
+  double farthest_m = 1.5;   // farther people are in view from the waist up
   double jump_m = 0.04;      // depth from one cell to the next on one surface
-  double arm_m = 0.35;       // radius in which the arm is looked for
+  double arm_m = 0.35;       // radius of the search for the arm
   double hand_m = 0.17;      // from the finger tips to the wrist
-  double least_m2 = 0.003;   // what is seen of a hand, fist or edge on
-  double most_m2 = 0.04;     // ... and flat, fingers spread
-  double most_cut = 0.35;    // share of its border where the surface goes on: a wrist, not a wall
-  double fastest_m_s = 3.0;  // a hand on its way
-  double slack_m = 0.02;     // between frames beyond that
-  double proven_s = 0.3;     // how long it is followed before its gestures count
-  double near_m = 0.3;       // how far from where it was asked for a hand may be
-  double apart_m = 0.25;     // least way between two hands
-  double settle_s = 2.0;     // in which the shoulder that is assumed follows the hand
+  double least_m2 = 0.003;   // visible area of a fist or a hand edge-on
+  double most_m2 = 0.04;     // visible area of a flat hand with spread fingers
+  double most_cut = 0.35;    // share of its border where the surface continues: a wrist, not a wall
+  double fastest_m_s = 3.0;  // speed of a hand
+  double slack_m = 0.02;     // additional motion between frames
+  double proven_s = 0.3;     // time tracked before its gestures count
+  double near_m = 0.3;       // distance of a hand from its requested position
+  double apart_m = 0.25;     // least distance between two hands
+  double settle_s = 2.0;     // time constant with which the assumed shoulder follows the hand
   double reach_m = 0.5;      // from that shoulder to the hand, towards the sensor
-  double above_m = 0.15;     // that shoulder above where the hand has been of late
+  double above_m = 0.15;     // that shoulder above the hand's recent positions
 };
 
-/// Hands without a detected body, followed by depth alone: of a person of whom only an arm is in
-/// view, or who stands too near. A hand is the free end of a surface that continues only at a wrist
-/// within a hand's length. An object of that shape is mistaken for one.
+/// Tracks hands without a detected body, by depth alone: of people of whom only an arm is in view,
+/// or who are too near. A hand is the free end of a surface that continues only at a wrist, within
+/// a hand's length. Objects of that shape are mistaken for hands.
 class LoneHands {
  public:
-  /// Those of this frame, with body ids below 0, the same from frame to frame. `of_bodies`: the
-  /// other hands of the frame, at whose places there is no lone one; `asked_m`: places in camera
-  /// space where a program says a hand is.
+  /// The hands of this frame, with negative body ids that stay constant. `of_bodies`: the hands of
+  /// detected bodies, which are excluded; `asked_m`: positions in camera space, metres, where the
+  /// program requested a hand.
   std::vector<SeenHand> Step(const depth::DepthFrame& image, const tracker::BodyFrame& bodies,
                              const std::vector<SeenHand>& of_bodies,
                              const std::vector<Eigen::Vector3d>& asked_m);

@@ -19,7 +19,7 @@ class OniThread {
   void Run(const std::function<void()>& task) { thread_.Run(task); }
   /// Queues the task.
   void Post(std::function<void()> task) { thread_.Post(std::move(task)); }
-  /// How often OpenNI2 was shut down: what is older is gone with it. To be compared on the thread.
+  /// Number of shutdowns of OpenNI2, which invalidate older objects. Compare it on the thread.
   int generation() const { return generation_; }
   void EndGeneration() { ++generation_; }
 

@@ -13,7 +13,7 @@ struct PoseOptions {
   // How far each hand is beyond the other, across the body. The tracker keeps hands that cross side
   // by side, while hands that are merely together are two palms apart.
   double crossed_m = 0.0;
-  double slack_rad = 0.17;  // what a held pose may lack, so that it does not flicker
+  double slack_rad = 0.17;  // hysteresis of a held pose, so that it does not flicker
   double slack_m = 0.05;    // the same for crossed hands
 };
 

@@ -51,7 +51,8 @@ void Session::End() {
     session->reset();
     OniThread::Instance().EndGeneration();
   };
-  // After what is still being closed; which a callback must not wait for, being waited for itself.
+  // Ends after the objects that are still closing. A callback must not wait for them, because they
+  // wait for it.
   if (LiveTracker::InCallback()) return OniThread::Instance().Post(end);
   WaitForEndOf(closed);
   OniThread::Instance().Run(end);

@@ -44,7 +44,7 @@ std::unique_ptr<UserTracker::Stored> UserTracker::Make(CameraFrame seen) {
       known_.insert(user.id);
       continue;
     }
-    requests_.skeletons.erase(user.id);  // whoever gets the id next has not been asked for
+    requests_.skeletons.erase(user.id);  // the next user with this id was not requested
     requests_.poses.erase(user.id);
   }
   return stored;

@@ -350,7 +350,7 @@ TrackPrior MakeTrackPrior(const Candidate& candidate, const std::vector<Track>& 
   prior.moved = track.moved;
   prior.moving = time_s - track.moved_s < options.moving_s;
   prior.full_m2 = track.full_m2;
-  // Which way a person faced a moment ago says much of the way now.
+  // The heading in the previous frame is a prior of the heading now.
   const bool recent = !track.facing.empty() && time_s - track.facing_s <= options.facing_s;
   if (track.age < options.min_facing_age || !recent) return prior;
   prior.facing = track.facing;

@@ -5,7 +5,7 @@
 
 namespace ossa::people {
 
-/// What the classification of a frame's candidates reads.
+/// Input of the classification of a frame's candidates.
 struct ClassificationInput {
   const PersonClassifier& classifier;
   const DepthFrame& frame;

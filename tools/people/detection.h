@@ -10,7 +10,7 @@
 
 namespace ossa::people {
 
-/// What the track of earlier frames says of a candidate.
+/// Prior of a candidate from its track.
 struct TrackPrior {
   std::vector<float> facing;    // probability of each of the model's contexts; empty: unknown
   std::optional<double> score;  // weighted mean over the frames

@@ -275,7 +275,7 @@ struct MotionOptions {
   // 0.1 the sideways velocity was off by 0.34, 0.25, 0.22 and 0.22 m/s (rms, validation subjects
   // crossing, half occluded); measured by the surface, by 0.34.
   float keypoint_share = 0.2F, surface_share = 0.5F;
-  float max_m_s = 4.0F;               // anthropometry: nobody is faster in view of a Kinect
+  float max_m_s = 4.0F;               // anthropometry: bound of walking speed in a Kinect's view
   float min_s = 1e-3F, max_s = 0.5F;  // between two frames that give a velocity
   size_t min_keypoints = 4;           // seen in both frames
   float moved_m = 0.05F;              // displacement, or
@@ -283,7 +283,7 @@ struct MotionOptions {
                              // breathe and turn, furniture does not
 };
 
-/// When a person who comes into view is a lost track and not a new one.
+/// Criteria by which a person who appears is a lost track and not a new one.
 struct ReidentifyOptions {
   double forget_s = 2.5;           // a track is deleted after this time out of view,
   double forget_occluded_s = 5.0;  // ... or after this time behind another person

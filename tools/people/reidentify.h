@@ -6,10 +6,10 @@
 #include "tools/people/options.h"
 #include "tools/people/track.h"
 
-// Re-identification: which lost track a person is who comes into view.
+// Re-identification: assigns people who appear to lost tracks.
 namespace ossa::people {
 
-/// Where a person comes into view, or was last seen.
+/// Place where a person appears, or was last seen.
 enum class Entrance {
   kOpen,    // in the middle of the image: through a door, or rejected until now
   kBehind,  // at the silhouette of a nearer person

@@ -6,16 +6,16 @@
 
 namespace ossa::stream {
 
-/// A bone of Unity's humanoid that a depth image does not tell of: its name as HumanBodyBones has
-/// it, and where it is at rest, as its parent sees it.
+/// A bone of Unity's humanoid that is not estimated: its name in HumanBodyBones, and its rest
+/// position in its parent's space, metres.
 struct RestBone {
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
 };
 
-/// The 34 bones that PoseOf leaves out, for who expects all of HumanBodyBones: upper chest (where
-/// the chest is, since the neck's place is told from there), eyes, jaw, and fingers stretched out
-/// in the size of the person's hands and head.
+/// The 34 bones of HumanBodyBones that ComputePose() leaves out: upper chest (at the chest, to
+/// which the neck's position is relative), eyes, jaw, and stretched fingers, in the size of the
+/// person's hands and head.
 std::vector<RestBone> MakeRestBones(const Humanoid& world);
 
 }  // namespace ossa::stream

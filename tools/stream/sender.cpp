@@ -45,7 +45,7 @@ Sender::~Sender() = default;
 Sender::Sender(Sender&&) noexcept = default;
 Sender& Sender::operator=(Sender&&) noexcept = default;
 
-// Whoever left frees a seat, whoever came takes the first.
+// People who left free their slots; new people take the first free one.
 void Sender::Impl::Seat(const tracker::BodyFrame& frame) {
   for (int& id : people) {
     const bool here = std::any_of(frame.bodies.begin(), frame.bodies.end(),
@@ -59,12 +59,11 @@ void Sender::Impl::Seat(const tracker::BodyFrame& frame) {
   }
 }
 
-// After Seat. VRChat has one body for all trackers: the first person's. Where they are gone,
-// whoever takes their seat is the same one under a new id, or comes instead; else, after a while,
-// the next one is sent, or furniture that was taken for the first person for a moment would leave
-// VRChat without any.
+// After Seat(). VRChat shows one body: the first person's. If that person is gone, a person in the
+// same slot replaces it (the same person under a new id, or another one); else the next person
+// after a while, so that a short false detection does not leave VRChat without a body.
 void Sender::Impl::ChooseForVrchat(double time_s) {
-  constexpr double kPatience_s = 2.0;  // by hand: one who was out of view comes back until then
+  constexpr double kPatience_s = 2.0;  // by hand: people out of view return within this time
   const bool here =
       of_vrchat != 0 && std::find(people.begin(), people.end(), of_vrchat) != people.end();
   if (!here) {

@@ -5,27 +5,27 @@ namespace ossa::stream {
 
 inline constexpr int kMostPort = 65535;  // by definition of UDP
 
-/// Who understands what is sent.
+/// Protocol of the receiver.
 enum class Protocol {
-  kVmc,     // Virtual Motion Capture: avatars' programs
+  kVmc,     // Virtual Motion Capture, for avatars
   kVrchat,  // VRChat's OSC trackers
-  kJsonl,   // anybody: a line of skeleton JSONL a datagram
+  kJsonl,   // a line of skeleton JSONL per datagram
 };
 
-/// Where skeletons are sent to.
+/// Destination of skeletons.
 struct Target {
-  std::string url;  // as it was given
+  std::string url;  // as given
   Protocol protocol = Protocol::kJsonl;
   std::string host;
   int port = 0;
-  /// Lengths are multiplied by it: a receiver who thinks that the person is taller or smaller.
+  /// Factor of all lengths, for receivers that assume another body height.
   double scale = 1.0;  // factor, by definition
-  /// VMC: only the bones that are seen, none at rest: fingers and eyes are another performer's.
+  /// VMC: send estimated bones only, because fingers and eyes come from another sender.
   bool seen_only = false;
 };
 
-/// vmc://HOST[:39539][?bones=all|seen], vrchat://HOST[:9000][?scale=X] or udp://HOST:PORT; an IPv6
-/// address stands in brackets. Throws InputError naming the URL and what was expected.
+/// vmc://HOST[:39539][?bones=all|seen], vrchat://HOST[:9000][?scale=X] or udp://HOST:PORT; IPv6
+/// addresses in brackets. Throws InputError naming the URL and what was expected.
 Target ParseTarget(const std::string& url);
 
 }  // namespace ossa::stream

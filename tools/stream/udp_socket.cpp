@@ -65,7 +65,7 @@ void UdpSocket::Send(const std::string& bytes, int offset) const {
   if (port_ + offset > kMostPort) return;
   sockaddr_storage address = address_;
   SetPort(address, port_ + offset);
-  // Nobody waits for an answer, nor cares whether it arrives.
+  // Fire and forget: no answer is expected.
   static_cast<void>(sendto(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL,
                            reinterpret_cast<const sockaddr*>(&address), address_size_));
 }

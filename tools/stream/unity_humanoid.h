@@ -39,9 +39,9 @@ class UnityRoom {
   Eigen::Quaterniond level_from_camera_ = Eigen::Quaterniond::Identity();
 };
 
-/// Places of a body's bones and how they are turned from a T-pose that faces +z, in the room.
+/// Positions of a body's bones, and their rotations from a T-pose that faces +z, in the room.
 Humanoid ComputePose(const tracker::Body& body, const UnityRoom& room);
-/// The same, each bone as its parent sees it: what a hierarchy of transforms holds.
+/// The same with each bone in its parent's space, as in a hierarchy of transforms.
 Humanoid ToLocal(const Humanoid& world);
 
 }  // namespace ossa::stream

@@ -46,7 +46,7 @@ void RequireInRange(double value, const char* member) {
                               ": expected 0 to 1e6, found " + std::to_string(value));
 }
 
-// Of options that name nobody to ask: goes on.
+// Without a callback: always continue.
 std::function<bool()> KeepWaitingOf(const ossa_source_options& options) {
   if (options.keep_waiting == nullptr) return [] { return true; };
   return [ask = options.keep_waiting, user = options.keep_waiting_user] { return ask(user) != 0; };

@@ -48,7 +48,8 @@ ossa_body BodyFrom(const Body& body, const recon::BodySurface* surface);
 ossa_object ObjectFrom(const SceneObjectState& object);
 
 depth::FrameSource& FramesOf(ossa_source& source);
-/// Whether whoever waits for the source goes on (ossa_source_options.keep_waiting).
+/// The callback that decides whether to keep waiting for the source
+/// (ossa_source_options.keep_waiting).
 const std::function<bool()>& KeepWaitingFor(const ossa_source& source);
 
 }  // namespace ossa::tracker

@@ -60,7 +60,7 @@ void Write(const ossa_tracker& tracker, ossa_writer& writer) {
   }
 }
 
-// If the disk is full, keeps the complete frames; the error tells how many.
+// If the disk is full, keeps the complete frames; the error states their number.
 void FinishFile(ossa_writer& writer) {
   try {
     if (writer.full) throw ossa::DiskFull(*writer.full);

@@ -90,7 +90,7 @@ struct Person {
 void DeleteGone(const std::vector<int>& in_view, double time_s, double forget_s,
                 std::map<int, Person>& people);
 
-/// What the stages from detection to skeleton read, the same for all people and frames.
+/// Input of the stages from detection to skeleton, the same for all people and frames.
 struct SkeletonOptions {
   const forest::ForestModel* forest = nullptr;       // for the choice among proposals
   people::JointTargets targets{};                    // its targets for the joints
