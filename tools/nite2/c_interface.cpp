@@ -1,4 +1,4 @@
-// The functions of NiTE 2.2. Nothing is thrown through them.
+// The functions of NiTE 2.2. They do not throw.
 #include <NiteCAPI.h>
 #include <OpenNI.h>
 
@@ -26,7 +26,7 @@ NiteStatus Guarded(const Call& call) {
   }
 }
 
-// call(tracker) of the tracker that is open by the handle.
+// Calls `call` with the open tracker of the handle.
 template <typename Call>
 NiteStatus With(NiteUserTrackerHandle handle, const Call& call) {
   return Guarded([&] {
@@ -42,7 +42,7 @@ NiteStatus With(NiteHandTrackerHandle handle, const Call& call) {
   });
 }
 
-// The same for calls that answer nothing.
+// The same for calls without a result.
 template <typename Handle, typename Call>
 void Do(Handle handle, const Call& call) {
   With(handle, [&](auto& tracker) {
@@ -51,7 +51,7 @@ void Do(Handle handle, const Call& call) {
   });
 }
 
-// NiTE gets the device as OpenNI2's C++ object.
+// Programs pass the device as OpenNI2's C++ object.
 OniDeviceHandle DeviceOf(void* device) {
   return device == nullptr ? nullptr : static_cast<openni::Device*>(device)->_getHandle();
 }

@@ -35,7 +35,7 @@ bool ReadMirroring(OniStreamHandle stream) {
          mirrored != FALSE;
 }
 
-// The pinhole camera of the window that the frame shows, as it is before mirroring.
+// The pinhole camera of the frame's window, before mirroring.
 depth::Camera MakeCamera(const DepthCamera::Geometry& geometry, const OniFrame& frame) {
   depth::Camera camera{frame.width,        frame.height,         geometry.focal_x(),
                        geometry.focal_y(), geometry.width / 2.0, geometry.height / 2.0};
@@ -47,7 +47,7 @@ depth::Camera MakeCamera(const DepthCamera::Geometry& geometry, const OniFrame& 
   return camera;
 }
 
-// Millimetres, row by row, turned back where they are mirrored.
+// Millimetres, row-major; mirrored rows are reversed.
 std::vector<uint16_t> ReadMillimetres(const OniFrame& frame, bool mirrored) {
   const bool tenths = frame.videoMode.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM;
   if (!tenths && frame.videoMode.pixelFormat != ONI_PIXEL_FORMAT_DEPTH_1_MM) {
@@ -138,7 +138,7 @@ void ONI_CALLBACK_TYPE DepthCamera::OnFrame(OniStreamHandle, void* camera) {
 bool DepthCamera::IsInCallback() const { return in_call_of == this; }
 
 void DepthCamera::ReadGeometry() {
-  constexpr float kLeast_rad = 0.01F, kMost_rad = 3.1F;  // by hand: a field of view at all
+  constexpr float kLeast_rad = 0.01F, kMost_rad = 3.1F;  // by hand: bounds of a field of view
   OniVideoMode mode{};
   int size = sizeof(mode);
   Require(oniStreamGetProperty(stream_, ONI_STREAM_PROPERTY_VIDEO_MODE, &mode, &size),

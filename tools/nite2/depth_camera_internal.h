@@ -30,37 +30,37 @@ class OniFrameReleaser {
 };
 using OniFramePtr = std::unique_ptr<OniFrame, OniFrameReleaser>;
 
-/// One moment: as OpenNI2 delivered it, and as ossa sees it.
+/// One frame: as OpenNI2 delivered it, and as ossa's depth image.
 struct CameraFrame {
   OniFramePtr delivered;
   depth::DepthFrame image;  // never mirrored
   bool mirrored = false;    // whether `delivered` is
 };
 
-/// A depth stream of our own on an OpenNI2 device. The device is held open for it, whatever the
-/// program does with its own handle. Next: one thread at a time.
+/// A separate depth stream on an OpenNI2 device. The device stays open for it, even if the program
+/// closes its own handle. Next() is for one thread at a time.
 class DepthCamera {
  public:
-  /// null: the first device there is. Throws InputError where there is none, or none with depths.
+  /// null: the first device. Throws InputError if there is none, or none with a depth stream.
   explicit DepthCamera(OniDeviceHandle device);
   ~DepthCamera();
   DepthCamera(const DepthCamera&) = delete;
   DepthCamera& operator=(const DepthCamera&) = delete;
 
-  /// The next frame; none after `timeout`. Throws InputError where it is none of depths.
+  /// The next frame; empty after `timeout`. Throws InputError if it is not a depth frame.
   std::optional<CameraFrame> Next(std::chrono::milliseconds timeout);
   /// Whether the device was unplugged.
   bool is_gone() const { return gone_; }
 
-  /// Called on a thread of OpenNI2 for every frame that comes, until the next call or
-  /// RemoveFrameCallback.
+  /// Sets a callback that a thread of OpenNI2 calls for every frame, until the next call or
+  /// RemoveFrameCallback().
   void SetFrameCallback(std::function<void()> on_frame);
-  /// Returns when no call is under way, unless on the very thread.
+  /// Returns when no callback is running, unless called from it.
   void RemoveFrameCallback();
-  /// Whether this thread is in such a call: OpenNI2 cannot end that thread from itself.
+  /// Whether this thread is running the callback: OpenNI2 cannot end that thread from itself.
   bool IsInCallback() const;
 
-  /// What OpenNI2's own conversions between millimetres and pixels go by.
+  /// Parameters of OpenNI2's conversions between millimetres and pixels.
   struct Geometry {
     int width = 0, height = 0;                // of the whole image
     double across_rad = 0.0, down_rad = 0.0;  // fields of view
@@ -68,7 +68,7 @@ class DepthCamera {
     double focal_x() const;  // pixels
     double focal_y() const;
   };
-  /// That of the newest frame. Any thread.
+  /// Geometry of the newest frame. Thread-safe.
   Geometry geometry() const;
 
  private:

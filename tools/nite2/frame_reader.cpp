@@ -9,7 +9,7 @@ namespace ossa::nite2 {
 using std::chrono::milliseconds;
 
 FrameReader& FrameReader::Instance() {
-  static auto* instance = new FrameReader;  // lives as long as its thread, to the program's end
+  static auto* instance = new FrameReader;  // as its thread, until the program ends
   return *instance;
 }
 
@@ -69,7 +69,7 @@ void FrameReader::Serve(std::unique_lock<std::mutex>& lock) {
   if (frame != nullptr) (*served[static_cast<size_t>(ready)]->look)();
   lock.lock();
   if (!readable) return;
-  Want& want = *served[static_cast<size_t>(ready)];  // there until it is finished
+  Want& want = *served[static_cast<size_t>(ready)];  // valid until it is finished
   want.frame = frame;
   Finish(want);
 }

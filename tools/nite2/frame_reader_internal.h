@@ -9,16 +9,16 @@
 
 namespace ossa::nite2 {
 
-/// Reads frames of all streams on one thread that never ends, for the reason of LastingThread;
-/// another than that, since closing waits for callbacks, and they wait for frames.
+/// Reads frames of all streams on one thread that never ends (see LastingThread). It is a separate
+/// thread, because closing waits for callbacks, which wait for frames.
 class FrameReader {
  public:
   static FrameReader& Instance();
 
-  /// The next frame of a stream, to be given back; null after `timeout`, or where it cannot be
-  /// read. Any thread, one at a time for each stream. Nothing touches the stream once this has
-  /// returned.
-  /// `look` is called on that thread when the frame is read, to ask OpenNI2 what else it must know.
+  /// Reads the next frame of a stream, which the caller must release; null after `timeout` or on
+  /// failure. Callable from any thread, one at a time per stream. After it returns the stream is
+  /// not used any more. `look` is called on the reading thread after the frame is read, for further
+  /// queries of OpenNI2.
   OniFrame* Read(OniStreamHandle stream, std::chrono::milliseconds timeout,
                  const std::function<void()>& look);
 

@@ -26,7 +26,7 @@ std::optional<NiteGestureState> GestureDetector::Step(const HandSample& sample) 
   return was_begun ? NITE_GESTURE_STATE_IN_PROGRESS : NITE_GESTURE_STATE_NEW;
 }
 
-// The hand goes to and fro above the elbow.
+// Wave: the hand moves back and forth above the elbow.
 bool GestureDetector::IsWaving(const HandSample& sample) {
   const double side_m = sample.hand_m.x() - sample.shoulder_m.x();
   if (sample.hand_m.y() < sample.elbow_m.y()) {
@@ -52,7 +52,7 @@ bool GestureDetector::IsWaving(const HandSample& sample) {
   return turns_s_.size() >= 2;
 }
 
-// The hand goes quickly away from the shoulder, towards the sensor more or less, and back.
+// Click: the hand moves quickly away from the shoulder, roughly towards the sensor, and back.
 bool GestureDetector::IsClicking(const HandSample& sample) {
   past_.push_back(sample);
   while (sample.time_s - past_.front().time_s > options_.push_s) past_.pop_front();
@@ -85,11 +85,11 @@ bool GestureDetector::IsPush(const HandSample& before, const HandSample& now) co
   return -arm.z() >= options_.towards && along_m >= options_.push_m && aside_m <= options_.aside_m;
 }
 
-// The hand comes above the shoulder and stays there for a moment; once a raise.
+// Raise: the hand moves above the shoulder and stays there for a moment; reported once per raise.
 bool GestureDetector::IsRaising(const HandSample& sample) {
   const double above_m = sample.hand_m.y() - sample.shoulder_m.y();
   if (above_m < options_.raise_m) raised_s_.reset();
-  if (above_m < -options_.raise_m) told_ = false;  // one that merely dips is not raised again
+  if (above_m < -options_.raise_m) told_ = false;  // a hand that merely dips is not raised again
   if (above_m < options_.raise_m) return false;
   if (!raised_s_) raised_s_ = sample.time_s;
   complete_ = !told_ && sample.time_s - *raised_s_ >= options_.raise_s;

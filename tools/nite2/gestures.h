@@ -17,16 +17,15 @@ struct HandSample {
 
 /// Thresholds of gestures; by hand.
 struct GestureOptions {
-  double swing_m = 0.08;  // a wave's least way between two turns
+  double swing_m = 0.08;  // least distance between two turns of a wave
   int swings = 4;         // turns within ...
   double wave_s = 2.5;    // ... this time
   double push_m = 0.15;   // length of a click along the arm, and half of it back
-  double push_s = 0.6;    // how long either way may take
-  double aside_m = 0.12;  // how far a click may stray sideways
-  double towards =
-      0.5;  // part of the arm\'s direction that is towards the sensor: within 60 degrees
-  double raise_m = 0.05;  // how far above the shoulder a raised hand is
-  double raise_s = 0.3;   // how long it stays there
+  double push_s = 0.6;    // longest time of either direction
+  double aside_m = 0.12;  // largest sideways motion of a click
+  double towards = 0.5;   // cosine of the arm's angle to the sensor: within 60 degrees
+  double raise_m = 0.05;  // height of a raised hand above the shoulder
+  double raise_s = 0.3;   // time that it stays there
 };
 
 /// Detects one gesture in the path of one hand.
@@ -35,8 +34,7 @@ class GestureDetector {
   explicit GestureDetector(NiteGestureType type, const GestureOptions& options = {})
       : type_(type), options_(options) {}
 
-  /// Adds a sample: NEW where a gesture may begin, IN_PROGRESS, or COMPLETED; none without a sign
-  /// of it.
+  /// Adds a sample: NEW if a gesture may begin, IN_PROGRESS, or COMPLETED; else empty.
   std::optional<NiteGestureState> Step(const HandSample& sample);
 
  private:
@@ -49,11 +47,11 @@ class GestureDetector {
   GestureOptions options_;
   bool begun_ = false;     // reported as NEW
   bool complete_ = false;  // the last step completed it
-  // Wave: where the hand turned last, which way it goes, and when it turned.
+  // Wave: position of the last turn, direction, and times of turns.
   double extreme_m_ = 0.0;
   int way_ = 0;
   std::deque<double> turns_s_;
-  // Click: the last moments, and the push that is under way.
+  // Click: recent samples, and the current push.
   std::deque<HandSample> past_;
   struct Push {
     Eigen::Vector3d from_m;  // the hand as seen from the shoulder, where it began

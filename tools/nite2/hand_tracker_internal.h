@@ -10,7 +10,7 @@
 
 namespace ossa::nite2 {
 
-/// A NiteHandTracker: the hands of bodies, and those of which no body is in view.
+/// A NiteHandTracker: hands of bodies, and hands without a body in view.
 class HandTracker final : public LiveTracker {
  public:
   using Frame = NiteHandTrackerFrame;

@@ -19,16 +19,16 @@ struct SeenHand {
   int body_id = 0;          // below 0: one without a body
   bool left = false;        // unknown and false without a body
   HandSample sample;        // camera space
-  bool moves_count = true;  // whether its way makes gestures
+  bool moves_count = true;  // whether its motion counts for gestures
 };
 
 /// The tracked and inferred hands of all people in the frame.
 std::vector<SeenHand> CollectHands(const tracker::BodyFrame& frame);
 
-/// Options of following hands; by hand.
+/// Options of hand tracking; by hand.
 struct HandOptions {
-  double near_m = 0.3;      // how far from where it was asked for a hand may be
-  double patience_s = 0.5;  // how long a hand may be out of sight before it is lost
+  double near_m = 0.3;      // distance of a hand from its requested position
+  double patience_s = 0.5;  // time out of sight after which a hand is lost
   double border = 0.05;  // fraction of the image's width from its border on that counts as touching
 };
 

@@ -12,8 +12,8 @@ using recon::TrackingState;
 
 constexpr double kMillimetres = 1000.0;  // in a metre; by definition
 
-// Where a NiTE joint is, and the bone that turns with it: that which leaves the joint, at the ends
-// of the limbs that which comes to it.
+// A NiTE joint's position and the bone with its orientation: the bone that starts at the joint, or
+// at ends of limbs the one that ends there.
 struct JointSource {
   NiteJointType type;
   Joint place;
@@ -68,7 +68,7 @@ Eigen::Vector3d FromNite(const NitePoint3f& point, bool mirrored) {
 NiteQuaternion TurnToNite(const Eigen::Quaterniond& rotation, bool mirrored) {
   const Eigen::Quaternionf q = rotation.normalized().cast<float>();
   if (mirrored) return {q.x(), q.y(), q.z(), q.w()};
-  return {q.x(), -q.y(), -q.z(), q.w()};  // a mirror across x = 0 turns y and z the other way
+  return {q.x(), -q.y(), -q.z(), q.w()};  // mirroring at x = 0 negates the rotation about y and z
 }
 
 NitePlane FloorToNite(const Eigen::Vector4d& floor, bool mirrored) {

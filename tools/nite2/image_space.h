@@ -6,8 +6,8 @@
 /// Conversions of results of ossa::tracker to NiTE's types: pure functions.
 namespace ossa::nite2 {
 
-/// Camera space (metres, x to the sensor's left) as millimetres with x to the right of the image as
-/// it is delivered: where that is mirrored, the right of the image is the sensor's left.
+/// Camera space (metres, x to the sensor's left) as millimetres with x to the right of the
+/// delivered image; if it is mirrored, the image's right is the sensor's left.
 NitePoint3f ToNite(const Eigen::Vector3d& camera_m, bool mirrored);
 /// The inverse.
 Eigen::Vector3d FromNite(const NitePoint3f& point, bool mirrored);

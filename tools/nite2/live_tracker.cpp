@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 // Constants: by hand.
 
 constexpr milliseconds kPatience{2000};  // after this time without frames a camera is an error
-constexpr milliseconds kSlice{100};      // between looks whether the tracker is closed
+constexpr milliseconds kSlice{100};      // between checks whether the tracker is closed
 
 tracker::TrackerOptions MakeOptions(const tracker::ModelSet& models) {
   tracker::TrackerOptions options;
@@ -87,7 +87,7 @@ std::optional<CameraFrame> LiveTracker::NextFrame() {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (!closing_ && std::chrono::steady_clock::now() < deadline) {
     std::optional<CameraFrame> frame = camera_->Next(kSlice);
-    // A frame that is there is given even when the device has just gone.
+    // An available frame is returned even if the device has just gone.
     if (frame || camera_->is_gone()) return frame;
   }
   return std::nullopt;

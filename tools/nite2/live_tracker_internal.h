@@ -28,20 +28,20 @@ class LiveTracker : public std::enable_shared_from_this<LiveTracker> {
   LiveTracker(const LiveTracker&) = delete;
   LiveTracker& operator=(const LiveTracker&) = delete;
 
-  /// Reads that wait end, and new ones fail.
+  /// Ends waiting reads; new ones fail.
   void Close();
   /// Whether this thread is in a callback of any tracker.
   static bool InCallback();
   bool AddCallback(const Callback& callback);
   /// Returns when the callback is not running, unless called from it.
   void RemoveCallback(const void* key);
-  /// Between millimetres and pixels of the whole image, as OpenNI2 does it; false where it cannot.
+  /// Between millimetres and pixels of the whole image, as OpenNI2 does; false if impossible.
   bool ToPixel(float x, float y, float z, float* pixel_x, float* pixel_y) const;
   bool ToPoint(int pixel_x, int pixel_y, int z, float* x, float* y) const;
 
  protected:
-  /// Waits for the next frame; none where there was none for two seconds, the device is gone, or
-  /// the tracker is closed. Under `reading_`.
+  /// Waits for the next frame; empty after two seconds, if the device is gone, or if the tracker is
+  /// closed. Under `reading_`.
   std::optional<CameraFrame> NextFrame();
 
   std::mutex reading_;  // held while a frame is read and worked on

@@ -8,7 +8,8 @@
 namespace ossa::nite2 {
 namespace {
 
-// The image in cells, each with the place that its middle pixel shows; z is 0 where there is none.
+// The image in cells, each with the point at its central pixel, camera space; z is 0 without a
+// reading.
 class Cells {
  public:
   Cells(const depth::DepthFrame& image, const depth::Image<uint8_t>& users,
@@ -38,7 +39,7 @@ class Cells {
     if (y + 1 < height_) tell(cell + width_);
   }
 
-  // The cell whose place is nearest, no farther than `most_m`.
+  // The cell nearest to a point, within `most_m`.
   std::optional<size_t> Nearest(const Eigen::Vector3d& place_m, double most_m) const;
 
  private:

@@ -26,7 +26,7 @@ class OpenTrackers {
     open_[last_] = std::move(tracker);
     return reinterpret_cast<Handle>(last_);
   }
-  /// null where nothing is open by this handle.
+  /// null if the handle is not open.
   std::shared_ptr<Tracker> Find(Handle handle) const {
     const std::lock_guard lock(mutex_);
     const auto found = open_.find(reinterpret_cast<uintptr_t>(handle));
@@ -44,7 +44,7 @@ class OpenTrackers {
     tracker->Close();
     return true;
   }
-  /// Adds them to `closed`: others may be in them still.
+  /// Adds them to `closed`, because other threads may still use them.
   void CloseAll(std::vector<std::weak_ptr<LiveTracker>>& closed) {
     std::map<uintptr_t, std::shared_ptr<Tracker>> open;
     {
@@ -64,17 +64,17 @@ class OpenTrackers {
   uintptr_t last_ = 0;
 };
 
-/// The library between niteInitialize and niteShutdown. One a process, as OpenNI2 itself is; it is
-/// never destroyed, since programs call in while they end.
+/// The library between niteInitialize and niteShutdown. One per process, like OpenNI2 itself; never
+/// destroyed, because programs call it while they end.
 class Session {
  public:
   static Session& Instance();
 
-  /// Counted. Throws InputError where OpenNI2 or a shipped model is missing.
+  /// Reference-counted. Throws InputError if OpenNI2 or a shipped model is missing.
   void Begin();
-  /// The last one closes all that is open.
+  /// The last call closes all trackers.
   void End();
-  /// Throws InputError before Begin, and where there is no such camera.
+  /// Throws InputError before Begin(), and if there is no such camera.
   NiteUserTrackerHandle OpenUserTracker(OniDeviceHandle device);
   NiteHandTrackerHandle OpenHandTracker(OniDeviceHandle device);
 

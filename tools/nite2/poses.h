@@ -10,8 +10,8 @@ namespace ossa::nite2 {
 /// Bounds of the poses, by hand: wide enough for people who do not know them exactly.
 struct PoseOptions {
   double tilt_rad = 0.61;  // 35 degrees: of psi's upper arms from level, forearms from upright
-  // How far each hand is beyond the other, across the body. The tracker keeps hands that cross side
-  // by side, while hands that are merely together are two palms apart.
+  // Distance of each hand beyond the other, across the body. The tracker keeps crossing hands side
+  // by side, while hands that merely touch are two palms apart.
   double crossed_m = 0.0;
   double slack_rad = 0.17;  // hysteresis of a held pose, so that it does not flicker
   double slack_m = 0.05;    // the same for crossed hands
@@ -19,7 +19,7 @@ struct PoseOptions {
 
 /// Whether the body shows the pose. Psi: upper arms level and out, forearms up, as the Greek
 /// letter. Crossed hands: between hips and head, each on the other's side. `up`: unit vector in the
-/// frame of the posture; `held`: it did in the frame before.
+/// frame of the posture; `held`: it did in the previous frame.
 bool ShowsPose(NitePoseType type, const recon::Posture& posture_m, const Eigen::Vector3d& up,
                bool held, const PoseOptions& options = {});
 

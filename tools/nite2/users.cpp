@@ -18,7 +18,7 @@ void Extend(float u, float v, float z, NiteBoundingBox& box) {
   box.max = {std::max(box.max.x, u), std::max(box.max.y, v), std::max(box.max.z, z)};
 }
 
-// By body id: pixels of the image as it is delivered, millimetres of depth.
+// By body id: pixels of the delivered image, depth in millimetres.
 std::map<int, NiteBoundingBox> FindBoxes(const depth::Image<uint8_t>& users,
                                          const std::vector<uint16_t>& depth_mm, bool mirrored) {
   std::map<int, NiteBoundingBox> boxes;
@@ -36,7 +36,7 @@ std::map<int, NiteBoundingBox> FindBoxes(const depth::Image<uint8_t>& users,
   return boxes;
 }
 
-// Sure of head and trunk, which all else hangs on.
+// Head and trunk are tracked, on which all other joints depend.
 bool IsSure(const tracker::Body& body) {
   for (const Joint joint : {Joint::kHead, Joint::kShoulderCenter, Joint::kShoulderLeft,
                             Joint::kShoulderRight, Joint::kHipCenter}) {
@@ -107,7 +107,7 @@ void Users::TakeJoints(const tracker::Body& body, const UserWishes& requests, bo
   }
   const bool asked_before = skeleton.state != NITE_SKELETON_NONE;
   if (!asked_before) skeleton.state = NITE_SKELETON_CALIBRATING;
-  if (body.state != tracker::BodyState::kTracked) return;  // was asked for only now
+  if (body.state != tracker::BodyState::kTracked) return;  // was requested only now
   const NiteSkeleton before = skeleton;
   FillJoints(body, mirrored, skeleton.joints);
   if (user.has_joints) Blend(before.joints, requests.smoothing, skeleton.joints);

@@ -16,7 +16,7 @@ namespace ossa::nite2 {
 struct UserWishes {
   std::set<NiteUserId> skeletons;
   std::map<NiteUserId, std::set<NitePoseType>> poses;
-  float smoothing = 0.0F;  // part of a joint's last place in its next, [0, 1]
+  float smoothing = 0.0F;  // weight of a joint's previous position, [0, 1]
 };
 
 /// The people of a tracker as NiTE's users: small ids, which are free again ten seconds after a
