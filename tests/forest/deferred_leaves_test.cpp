@@ -118,7 +118,7 @@ LeafSource LargeSource(size_t leaves) {
 }
 
 // The other thread is interrupted by the fork: locks that it holds are never released in the child.
-TEST(DeferredLeaves, AreFoundInAProcessForkedWhileAThreadGathers) {
+TEST(DeferredLeaves, AreCompleteInAProcessForkedWhileTheyAreMade) {
   constexpr unsigned kPatience_s = 20;
   const auto deferred = Defer(LargeSource(400'000));
   std::vector<int32_t> all(400'000);

@@ -22,7 +22,7 @@ std::string RefusalOf(const std::string& content) {
   return "accepted";
 }
 
-TEST(PclImport, ATreeOfOneSplitBecomesTwoLeaves) {
+TEST(PclImport, TreeOfOneSplitHasTwoLeaves) {
   const ossa::test::TemporaryFolder folder;
   const auto path = folder.path() / "tree.txt";
   std::ofstream(path) << "1\n16 -32 0 48 200\n4\n10\n";
@@ -37,7 +37,7 @@ TEST(PclImport, ATreeOfOneSplitBecomesTwoLeaves) {
   EXPECT_EQ(model.data().class_names[5], "Rfoot");
 }
 
-TEST(PclImport, NamesTheLineAndWhatWasExpectedInPrintableCharacters) {
+TEST(PclImport, ErrorsNameLineAndExpectation) {
   EXPECT_EQ(RefusalOf(std::string("\x89PNG\r\n\0\xFF", 8)),
             ": line 1: expected the depth of a PCL people tree, found '\\x89PNG\\x0D'");
   EXPECT_EQ(RefusalOf("1\n1 2 3\n"), ": line 2: expected a node of 5 whole numbers, found '1 2 3'");
@@ -46,7 +46,7 @@ TEST(PclImport, NamesTheLineAndWhatWasExpectedInPrintableCharacters) {
   EXPECT_EQ(RefusalOf("1\n1 2 3 4 5\n7\n"), ": line 4: expected the label of a leaf, found ''");
 }
 
-TEST(PclImport, ReadsNoMoreOfAnEndlessLineThanItNeeds) {
+TEST(PclImport, DoesNotReadEndlessLines) {
   EXPECT_EQ(
       RefusalOf(std::string(5'000'000, '1')),
       ": line 1: expected the depth of a PCL people tree, found '" + std::string(40, '1') + "'");

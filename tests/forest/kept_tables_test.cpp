@@ -58,13 +58,13 @@ class KeptTables : public ::testing::Test {
   std::filesystem::path cache_ = folder_ / "cache", file_ = folder_ / "body.ossa";
 };
 
-TEST_F(KeptTables, OfFewImagesAreNeverMade) {
+TEST_F(KeptTables, AreNotMadeForFewImages) {
   ExpectRunsAsEver(ReadToKeep(), kFew);
   EXPECT_FALSE(std::filesystem::exists(cache_));
   EXPECT_FALSE(ReadKeptTables(file_));
 }
 
-TEST_F(KeptTables, OfAFilmAreThereWhenItsModelHasGone) {
+TEST_F(KeptTables, AreWrittenAfterManyImagesWhenTheModelIsGone) {
   ExpectRunsAsEver(ReadToKeep(), kMany);
   const auto kept = ReadKeptTables(file_);
   ASSERT_TRUE(kept);
@@ -82,7 +82,7 @@ size_t CountFiles(const std::filesystem::path& folder) {
   return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-TEST_F(KeptTables, TakeTheRoomOfWhatAKilledProcessLeft) {
+TEST_F(KeptTables, ReplaceLeftoversOfAKilledProcess) {
   ExpectRunsAsEver(ReadToKeep(), kMany);
   ASSERT_EQ(CountFiles(cache_), 2U);  // tables and their head
   for (const auto& entry : std::filesystem::directory_iterator(cache_)) {
@@ -115,13 +115,13 @@ TEST_F(KeptTables, AreNotMadeByAForkedProcess) {
   EXPECT_FALSE(std::filesystem::exists(cache_));
 }
 
-TEST_F(KeptTables, GoWithoutAFolderForThem) {
+TEST_F(KeptTables, AreOptional) {
   setenv("OSSA_CACHE", (file_ / "below").c_str(), 1);
   ExpectRunsAsEver(ReadToKeep(), kMany);
   EXPECT_FALSE(ReadKeptTables(file_));
 }
 
-TEST_F(KeptTables, LetAModelGoThatWasNeverKept) {
+TEST_F(KeptTables, AreNotWrittenForOtherModels) {
   ExpectRunsAsEver(ReadForestModel(file_, ModelUse::kRunOnly), kMany);
   EXPECT_FALSE(std::filesystem::exists(cache_));
 }

@@ -43,7 +43,7 @@ std::string RefusalOfData(ForestData data) {
   return Refusal([&] { ForestModel(std::move(data), "body.ossa"); });
 }
 
-TEST(ForestModelFile, ComesBackAsItWas) {
+TEST(ForestModelFile, RoundTripIsExact) {
   const std::vector<char> bytes = test::ToBytes(BallModel());
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
   EXPECT_EQ(test::ToBytes(read), bytes);
@@ -59,7 +59,7 @@ TEST(FindTargets, AreInTheOrderOfTheNamesOrRefused) {
             "body.ossa: targets: expected one named 'Tail', found none");
 }
 
-TEST(ForestModelFile, ReadToRunOnlyItRunsAsEver) {
+TEST(ForestModelFile, RunOnlyModelGivesTheSameResults) {
   const ossa::test::TemporaryFolder folder;
   const auto path = folder.path() / "body.ossa";
   WriteForestModel(path, BallModel());
@@ -82,7 +82,7 @@ TEST(ForestModelFile, EveryTruncationIsRefusedByName) {
   }
 }
 
-TEST(ForestModelFile, AFlippedBitAnywhereIsRefused) {
+TEST(ForestModelFile, EveryFlippedBitIsRefused) {
   const std::vector<char> whole = test::ToBytes(BallModel());
   for (size_t at = 0; at < whole.size(); at += whole.size() / 40) {
     std::vector<char> damaged = whole;
@@ -154,12 +154,12 @@ TEST_P(OlderFile, IsReadWithoutWhatItLacks) {
 INSTANTIATE_TEST_SUITE_P(ForestModelFile, OlderFile,
                          testing::Values(std::pair(4U, size_t{40}), std::pair(3U, size_t{60})));
 
-TEST(ForestModelFile, AFileOfAnotherKindIsRefused) {
+TEST(ForestModelFile, FileOfAnotherKindIsRefused) {
   const std::string text = "this is a letter, not a forest; it is long enough to hold a header";
   EXPECT_NE(RefusalOfBytes({text.begin(), text.end()}).find("forest model"), std::string::npos);
 }
 
-TEST(ForestModel, RefusesNumbersThatAreNone) {
+TEST(ForestModel, RefusesNan) {
   ForestData data = BallModel().data();
   data.targets[1].push_back_m = std::numeric_limits<float>::quiet_NaN();
   EXPECT_NE(RefusalOfData(data).find("not a number"), std::string::npos);
@@ -186,12 +186,12 @@ TEST(ForestModel, RefusesBackgroundInALeaf) {
   EXPECT_NE(RefusalOfData(data).find("background"), std::string::npos);
 }
 
-TEST(FitInto, LeavesAModelThatFitsAlone) {
+TEST(FitInto, KeepsAModelThatFits) {
   const ForestModel fitted = FitInto(BallModel(), FileSize(BallModel().data()));
   EXPECT_EQ(test::ToBytes(fitted), test::ToBytes(BallModel()));
 }
 
-TEST(FitInto, LeavesRareEntriesOutUntilTheFileFits) {
+TEST(FitInto, DropsRareEntriesUntilTheFileFits) {
   const uint64_t limit = FileSize(BallModel().data()) * 97 / 100;
   const ForestModel fitted = FitInto(BallModel(), limit);
   EXPECT_LE(test::ToBytes(fitted).size(), limit);
@@ -204,7 +204,7 @@ TEST(FitInto, LeavesRareEntriesOutUntilTheFileFits) {
   }
 }
 
-TEST(FitInto, SaysWhenNothingHelps) {
+TEST(FitInto, ThrowsIfOneEntryPerLeafDoesNotFit) {
   EXPECT_NE(Refusal([] { FitInto(BallModel(), 200); }).find("does not fit"), std::string::npos);
 }
 
@@ -237,7 +237,7 @@ TEST(Classify, ProbabilitiesOfAPixelSumToOne) {
   }
 }
 
-TEST(Classify, SmoothingTakesScatteredErrorsOut) {
+TEST(Classify, SmoothingRemovesScatteredErrors) {
   const BallFigures unseen(30, 31);
   const auto errors = [&](double smoothing_m) {
     int64_t wrong = 0;

@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Nasty, BadTargets,
                                          BadTarget{"Mirrored", Mirrored}),
                          [](const auto& info) { return std::string(info.param.name); });
 
-TEST(CharacterFilter, JointsOfNoWeightAreAsGoodAsMissing) {
+TEST(CharacterFilter, JointsOfWeightZeroCountAsMissing) {
   CharacterFilter filter(Lengths());
   filter.Step(StandingPerson(), {}, Ground(), kFrame_s);
   recon::JointArray<double> weight;
@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(Hertz, FrameRates,
                          testing::Combine(testing::Values(15.0, 24.0, 30.0, 60.0, 120.0),
                                           testing::Values(Control::kPaper, Control::kMotor)));
 
-TEST(CharacterFilter, StartsAnewAfterAGap) {
+TEST(CharacterFilter, RestartsAfterAGap) {
   CharacterFilter filter(Lengths());
   EXPECT_TRUE(filter.Step(StandingPerson(), {}, Ground(), kFrame_s).placed);
   EXPECT_FALSE(filter.Step(StandingPerson(), {}, Ground(), kFrame_s).placed);

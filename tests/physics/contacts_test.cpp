@@ -91,7 +91,7 @@ TEST_P(FastBall, DoesNotEnterTheChest) {
 // contacts are detected.
 INSTANTIATE_TEST_SUITE_P(Speeds, FastBall, testing::Values(7.0, 11.0, 20.0));
 
-TEST(Contacts, TwoPeopleCannotStandInOnePlace) {
+TEST(Contacts, TwoPeopleDoNotOverlap) {
   World world;
   world.SetFloor(Ground());
   CharacterOptions free;
@@ -192,7 +192,7 @@ TEST(Hold, KeepsAnObjectAtTheHandAndItsWeightOnTheArm) {
   EXPECT_NEAR(scene.At(Joint::kHandRight).y(), before.y(), 0.003);
 }
 
-TEST(UserConstraints, TakeTheHandWhereTheUserWants) {
+TEST(UserConstraints, MoveTheHandToTheRequestedPosition) {
   for (const bool hard : {false, true}) {
     Scene scene;
     const Vector3d place(-0.35, 1.2, 0.3);
@@ -206,7 +206,7 @@ TEST(UserConstraints, TakeTheHandWhereTheUserWants) {
   }
 }
 
-TEST(UserConstraints, ThatContradictEachOtherAreMetHalfWay) {
+TEST(UserConstraints, ContradictoryOnesAreMetHalfway) {
   Scene scene;
   // Hands 4 m apart while both feet stand: sec. 6.1 says the paper's solver fails here.
   scene.world.Constrain(scene.person, Joint::kHandLeft, {2.0, 1.5, 0.0}, true);
@@ -228,7 +228,7 @@ TEST(UserConstraints, ThatContradictEachOtherAreMetHalfWay) {
             0.01);
 }
 
-TEST(FootPin, HoldsWhileTheTargetStandsAndLetsGoWhenItLifts) {
+TEST(FootPin, PinsAStandingFootAndReleasesALiftedOne) {
   Scene scene;
   ASSERT_TRUE(scene.world.StateOf(scene.person).left_foot_pinned);
   const Vector3d stood = scene.At(Joint::kFootLeft);
@@ -258,7 +258,7 @@ TEST(FootPin, HoldsWhileTheTargetStandsAndLetsGoWhenItLifts) {
   EXPECT_GT(scene.At(Joint::kFootLeft).y(), 0.15);
 }
 
-TEST(FootPin, IsNotShakenOffByThreeCentimetresOfNoise) {
+TEST(FootPin, HoldsUnderThreeCentimetresOfNoise) {
   Scene scene;
   std::mt19937_64 random(3);
   int pinned = 0;
@@ -308,7 +308,7 @@ Struck ThrowAtHead(bool dodge, double beside_m) {
   return result;
 }
 
-TEST(Dodging, CatchesWithTheForearmsWhatWouldHitTheHead) {
+TEST(Dodging, ForearmsCatchObjectsFlyingAtTheHead) {
   EXPECT_TRUE(ThrowAtHead(false, 0.0).head);
   const Struck dodging = ThrowAtHead(true, 0.0);
   EXPECT_TRUE(dodging.dodged);
@@ -316,7 +316,7 @@ TEST(Dodging, CatchesWithTheForearmsWhatWouldHitTheHead) {
   EXPECT_TRUE(dodging.arm);
 }
 
-TEST(Dodging, IgnoresWhatStandsStill) {
+TEST(Dodging, IgnoresRestingObjects) {
   CharacterOptions options;
   options.dodge = true;
   Scene scene(options);
@@ -337,7 +337,7 @@ TEST(Dodging, IgnoresWhatStandsStill) {
   EXPECT_FALSE(dodged);
 }
 
-TEST(Dodging, IgnoresWhatFliesPast) { EXPECT_FALSE(ThrowAtHead(true, 1.0).dodged); }
+TEST(Dodging, IgnoresObjectsFlyingPast) { EXPECT_FALSE(ThrowAtHead(true, 1.0).dodged); }
 
 }  // namespace
 }  // namespace ossa::physics

@@ -57,7 +57,7 @@ std::vector<double> Dance() {
   return numbers;
 }
 
-TEST(Threads, DoNotDisturbEachOther) {
+TEST(Threads, DoNotInfluenceResults) {
   const std::vector<double> alone = Dance();
   std::vector<double> together[3];
   {
@@ -86,7 +86,7 @@ Posture Spoiled(Posture target, std::mt19937_64& random) {
 }
 
 // The short form of the ten hours of `ossa experiment shum-ho-2012`.
-TEST(Endurance, FourMinutesOfABadSensorLoseNoCharacter) {
+TEST(Endurance, FourMinutesOfBadInputKeepTheCharacterStable) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   CharacterFilter filter(Lengths());

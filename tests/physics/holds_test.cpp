@@ -48,7 +48,7 @@ double TurnInHand_rad(double torque_nm) {
   return before.angularDistance(in_hand());
 }
 
-TEST(Hold, TurnsInTheHandWhereItWouldHaveToTurnHarderThanItCan) {
+TEST(Hold, ObjectSlipsInTheHandAboveTheTorque) {
   EXPECT_LT(TurnInHand_rad(20.0), 0.1);
   EXPECT_GT(TurnInHand_rad(0.5), 0.5);
 }
@@ -95,14 +95,14 @@ std::pair<double, double> KeptFromWhereItIsWanted_m(double torque_nm) {
   return {(holding.Hand() - free.Hand()).norm(), low_m};
 }
 
-TEST(Hold, HandsOfTwoSlipOnWhatTheyHoldUntilTheyAreWhereTheyAreWanted) {
+TEST(Hold, HandsOfTwoPeopleSlipUntilTheyReachTheirTargets) {
   const auto [kept_m, low_m] = KeptFromWhereItIsWanted_m(0.5);
   EXPECT_LT(kept_m, 0.03);
   EXPECT_LT(std::abs(low_m), 0.02);
   EXPECT_GT(KeptFromWhereItIsWanted_m(std::numeric_limits<double>::infinity()).first, 0.04);
 }
 
-TEST(Hold, HandsThatGoApartDoNotSlipOffWhatTheyHoldWithoutEnd) {
+TEST(Hold, SeparatingHandsDoNotSlipOffTheObject) {
   Pair pair;
   const Vector3d middle = 0.5 * (pair.first[Joint::kHandLeft] + pair.second[Joint::kHandRight]);
   const int box = pair.world.AddObject(Box(middle));

@@ -67,7 +67,7 @@ Arm LeftArm() {
   return arm;
 }
 
-TEST(InverseDynamics, OfAStatueIsItsWeight) {
+TEST(InverseDynamics, StandingStillGivesTheWeight) {
   const Dynamics d = MiddleOf([](double) { return WithArm(0.0); });
   EXPECT_NEAR(d.ground_force_n.y(), kMass_kg * kGravity_m_s2, 1e-6);
   EXPECT_LT(std::hypot(d.ground_force_n.x(), d.ground_force_n.z()), 1e-6);
@@ -82,14 +82,14 @@ TEST(InverseDynamics, OfAStatueIsItsWeight) {
   EXPECT_GT(d.foot_force_n[0].y(), d.foot_force_n[1].y());  // it leans to the arm's side
 }
 
-TEST(InverseDynamics, LeavesNothingOverWhereTheChainEnds) {
+TEST(InverseDynamics, HasNoResidualAtTheEndOfTheChain) {
   const Dynamics d = MiddleOf([](double t) { return test::DancingPerson(t); });
   EXPECT_LT(d.torque_nm[Joint::kSpine].norm(), 1e-8);
   EXPECT_LT(d.force_n[Joint::kSpine].norm(), 1e-8);
 }
 
 // T = I a + m g r cos(angle), here where the swing turns round.
-TEST(InverseDynamics, OfASwingingArmIsThatOfAPendulum) {
+TEST(InverseDynamics, SwingingArmEqualsAPendulum) {
   constexpr double kTo_rad = 0.6, kRate_rad_s = 6.0;
   const Dynamics d =
       MiddleOf([](double t) { return WithArm(kTo_rad * std::cos(kRate_rad_s * t)); });
@@ -100,7 +100,7 @@ TEST(InverseDynamics, OfASwingingArmIsThatOfAPendulum) {
   EXPECT_NEAR(d.torque_nm[Joint::kElbowLeft].z(), expected, 2e-3 * arm.moment_kgm * kGravity_m_s2);
 }
 
-TEST(InverseDynamics, OfALiftIsThatOfALargerWeight) {
+TEST(InverseDynamics, AccelerationUpwardsEqualsALargerWeight) {
   const Dynamics still = MiddleOf([](double) { return WithArm(0.3); });
   const Dynamics lifted = MiddleOf([](double t) {
     return Moved(WithArm(0.3), {0.0, 0.5 * 2.0 * t * t, 0.0});
@@ -113,7 +113,7 @@ TEST(InverseDynamics, OfALiftIsThatOfALargerWeight) {
   }
 }
 
-TEST(InverseDynamics, OfAFallIsNothing) {
+TEST(InverseDynamics, FreeFallNeedsNoForces) {
   const Dynamics d = MiddleOf([](double t) {
     return Moved(StandingPerson(), {0.0, 1.0 - 0.5 * kGravity_m_s2 * t * t, 0.0});
   });
@@ -123,7 +123,7 @@ TEST(InverseDynamics, OfAFallIsNothing) {
 }
 
 // A body moved as a whole: the centre of pressure is x - h a / g, as under an inverted pendulum.
-TEST(InverseDynamics, PressesWhereAnInvertedPendulumDoes) {
+TEST(InverseDynamics, CentreOfPressureEqualsThatOfAnInvertedPendulum) {
   constexpr double kSwing_m = 0.02, kRate_rad_s = 3.0;
   const Dynamics d = MiddleOf([](double t) {
     return Moved(StandingPerson(), {kSwing_m * std::cos(kRate_rad_s * t), 0.0, 0.0});
@@ -135,7 +135,7 @@ TEST(InverseDynamics, PressesWhereAnInvertedPendulumDoes) {
   EXPECT_NEAR(d.ground_force_n.x(), kMass_kg * acceleration, 0.02);
 }
 
-TEST(InverseDynamics, OfOneWhoStandsOnOneLegIsThatLegs) {
+TEST(InverseDynamics, StandingOnOneLegLoadsThatLeg) {
   Posture posture = StandingPerson();
   for (const Joint joint : {Joint::kAnkleLeft, Joint::kFootLeft}) {
     posture[joint] += Vector3d(0.0, 0.3, -0.25);
@@ -149,7 +149,7 @@ TEST(InverseDynamics, OfOneWhoStandsOnOneLegIsThatLegs) {
   EXPECT_NEAR(d.force_n[Joint::kKneeLeft].y(), leg_kg * kGravity_m_s2, 1e-6);
 }
 
-TEST(InverseDynamics, RefusesWhatIsNoMotion) {
+TEST(InverseDynamics, RefusesInvalidMotion) {
   const Posture posture = StandingPerson();
   std::vector<BodyPose> motion(2, {0.0, posture, recon::ComputeOrientations(posture)});
   motion[1].time_s = 1.0;

@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Contortion{"ForearmInTheUpperArm", 6, 5, {-0.3, 1.0, 0.25}, 150.0}),
     [](const auto& info) { return std::string(info.param.name); });
 
-TEST(JointLimits, StretchAKneeThatIsToBendForwardsAndLeaveTheHipAlone) {
+TEST(JointLimits, StopAKneeFromBendingForwardsAndKeepTheHip) {
   Posture target = StandingPerson();
   const Vector3d thigh = (target[Joint::kKneeLeft] - target[Joint::kHipLeft]).normalized();
   const Vector3d forwards = (0.77 * thigh + 0.64 * Vector3d::UnitZ()).normalized();
@@ -102,7 +102,7 @@ TEST(JointLimits, StretchAKneeThatIsToBendForwardsAndLeaveTheHipAlone) {
   EXPECT_LT((out.posture[Joint::kKneeLeft] - target[Joint::kKneeLeft]).norm(), 0.04);
 }
 
-TEST(JointLimits, LetThePossibleBe) {
+TEST(JointLimits, KeepPossiblePoses) {
   CharacterFilterOptions options;
   CharacterFilter free(Lengths(), options);
   options.joint_limits = true;
@@ -118,7 +118,7 @@ TEST(JointLimits, LetThePossibleBe) {
 
 class Hinges : public testing::TestWithParam<bool> {};
 
-TEST_P(Hinges, TurnAboutOneAxis) {
+TEST_P(Hinges, RotateAboutOneAxis) {
   CharacterFilterOptions options;
   options.hinges = GetParam();
   CharacterFilter filter(Lengths(), options);
@@ -149,7 +149,7 @@ TEST_P(Hinges, TurnAboutOneAxis) {
 INSTANTIATE_TEST_SUITE_P(Elbows, Hinges, testing::Bool(),
                          [](const auto& info) { return info.param ? "hinged" : "ball"; });
 
-TEST(Orientations, AreThoseOfTheSdkConventionOnceSettled) {
+TEST(Orientations, FollowTheSdkConventionOnceSettled) {
   const Posture goal = DancingPerson(1.0);
   CharacterFilterOptions options;
   options.pin_feet = false;

@@ -23,7 +23,7 @@ CharacterOptions Free() {
   return options;
 }
 
-TEST(Mechanics, ACharacterLetGoFallsFreely) {
+TEST(Mechanics, UncontrolledCharacterFallsFreely) {
   World world;
   const int person = world.AddCharacter(Lengths(), StandingPerson(), Free());
   world.StopControl(person);
@@ -35,7 +35,7 @@ TEST(Mechanics, ACharacterLetGoFallsFreely) {
   EXPECT_NEAR(fallen, 0.5 * 9.81 * t * t + 0.5 * 9.81 * t * h, 1e-4);
 }
 
-TEST(Mechanics, APendulumSwingsWithItsPeriod) {
+TEST(Mechanics, PendulumHasItsPeriod) {
   World world;
   ObjectOptions bob;
   bob.shape = Shape::kBall;
@@ -63,7 +63,7 @@ TEST(Mechanics, APendulumSwingsWithItsPeriod) {
   EXPECT_NEAR((last - first) / 10, period, 0.003 * period);  // air damping, interpolation
 }
 
-TEST(Mechanics, AStepOfTheTargetIsAnsweredAsDerived) {
+TEST(Mechanics, StepResponseIsAsDerived) {
   WorldOptions fine;
   fine.substeps = 100;
   World world(fine);
@@ -88,7 +88,7 @@ TEST(Mechanics, AStepOfTheTargetIsAnsweredAsDerived) {
   }
 }
 
-TEST(Mechanics, APushAddsItsImpulseToTheMomentum) {
+TEST(Mechanics, ImpulseAddsToTheMomentum) {
   WorldOptions weightless;
   weightless.gravity_m_s2 = 0.0;
   World world(weightless);
@@ -101,7 +101,7 @@ TEST(Mechanics, APushAddsItsImpulseToTheMomentum) {
   EXPECT_LT((world.StateOf(person).momentum_kg_m_s - impulse).norm(), 1e-6);
 }
 
-TEST(Mechanics, APushedCharacterReturns) {
+TEST(Mechanics, PushedCharacterReturns) {
   World world;
   world.SetFloor(test::Ground());
   const int person = world.AddCharacter(Lengths(), StandingPerson());
@@ -117,7 +117,7 @@ TEST(Mechanics, APushedCharacterReturns) {
   EXPECT_LT(test::LargestDistance(world.StateOf(person).posture, StandingPerson()), 0.005);
 }
 
-TEST(Anthropometry, MassesSumToTheBodyAndHangOnTheJoints) {
+TEST(Anthropometry, MassesSumToTheBodyMass) {
   const auto segments = ComputeSegments(Lengths(), 1.75, 70.0);
   double sum = 0.0, lumped = 0.0;
   for (const auto& segment : segments) sum += segment.mass_kg;
@@ -126,7 +126,7 @@ TEST(Anthropometry, MassesSumToTheBodyAndHangOnTheJoints) {
   EXPECT_NEAR(lumped, 70.0, 1e-9);
 }
 
-TEST(Anthropometry, NoBoneTurnsHarderThanTwoMassesAtItsEnds) {
+TEST(Anthropometry, RadiiOfGyrationAreBelowHalfTheLength) {
   // The premise of the damping derivation in control.h: rho >= 1, and <= 3.65.
   const auto segments = ComputeSegments(Lengths());
   for (size_t i = 1; i < recon::kJointCount; ++i) {
@@ -137,7 +137,7 @@ TEST(Anthropometry, NoBoneTurnsHarderThanTwoMassesAtItsEnds) {
   }
 }
 
-TEST(Anthropometry, StatureComesOutOfTheBones) {
+TEST(Anthropometry, StatureFollowsFromTheBones) {
   EXPECT_NEAR(EstimateStature(Lengths()), 1.75, 0.1);
 }
 

@@ -37,7 +37,7 @@ void Advance(World& world, int frames) {
   for (int f = 0; f < frames; ++f) world.Step(kFrame_s);
 }
 
-TEST(Objects, AreRemovedAndTheirNumbersNeverGivenAgain) {
+TEST(Objects, RemovedIdsAreNeverReused) {
   World world;
   const int first = world.AddObject(Box({0, 1, 0})), second = world.AddObject(Box({1, 1, 0}));
   const int person = world.AddCharacter(Lengths(), StandingPerson());
@@ -93,7 +93,7 @@ TEST(Objects, MoveByTheForceOnThem) {
 
 // A cube's moment of inertia is m a^2 / 6: an impulse at an edge's middle turns it by 0.1 J 6 / m
 // a^2.
-TEST(Objects, TurnByAnImpulseBesideTheirMiddle) {
+TEST(Objects, RotateByAnOffCentreImpulse) {
   World world = Weightless();
   const int box = world.AddObject(Box({0, 0, 0}));
   world.ApplyImpulseToObject(box, {0, 1, 0}, {0.1, 0, 0});
@@ -101,7 +101,7 @@ TEST(Objects, TurnByAnImpulseBesideTheirMiddle) {
   EXPECT_NEAR(world.ObjectOf(box).angular_velocity_rad_s.z(), 0.1 * 6.0 / (2.0 * 0.04), 1e-9);
 }
 
-TEST(Objects, ThatAreStaticCarryAndStay) {
+TEST(Objects, StaticObjectsCarryAndStay) {
   World world;
   world.SetFloor(Ground());
   ObjectOptions table = Box({0, 0.5, 0});
@@ -114,7 +114,7 @@ TEST(Objects, ThatAreStaticCarryAndStay) {
   EXPECT_NEAR(world.ObjectOf(box).position_m.y(), 0.65, 0.002);
 }
 
-TEST(Objects, ThatAreKinematicArriveAndPush) {
+TEST(Objects, KinematicObjectsArriveAndPush) {
   World world;
   world.SetFloor(Ground());
   ObjectOptions wall = Box({-0.5, 0.1, 0});
@@ -137,7 +137,7 @@ TEST(Objects, ThatAreKinematicArriveAndPush) {
 
 // Two balls on a rod that weighs next to nothing: the centre of mass is between them, and the
 // moment of inertia that of two points and of the balls themselves.
-TEST(Objects, OfSeveralPartsAreOneBody) {
+TEST(Objects, CompoundObjectsAreOneBody) {
   World world = Weightless();
   ObjectOptions dumbbell;
   dumbbell.shape = Shape::kBall;
@@ -152,7 +152,7 @@ TEST(Objects, OfSeveralPartsAreOneBody) {
   EXPECT_NEAR(world.ObjectOf(thing).angular_velocity_rad_s.y(), -3.0 * 0.5 / inertia, 1e-9);
 }
 
-TEST(Objects, OfSeveralPartsStandOnAll) {
+TEST(Objects, CompoundObjectsStandOnAllParts) {
   World world;
   world.SetFloor(Ground());
   ObjectOptions stool = Box({0, 0.5, 0}, 5.0);
@@ -169,7 +169,7 @@ TEST(Objects, OfSeveralPartsStandOnAll) {
   EXPECT_LT(world.ObjectOf(thing).orientation.angularDistance(Quaterniond::Identity()), 0.01);
 }
 
-TEST(Objects, LeadAJointThatIsConstrainedToAPointOfThem) {
+TEST(Objects, MoveAJointThatIsConstrainedToThem) {
   for (const bool hard : {false, true}) {
     World world = Weightless();
     const int person = world.AddCharacter(Lengths(), StandingPerson());
@@ -207,7 +207,7 @@ TEST(Objects, ArePulledByAHardConstraint) {
 }
 
 // A hand at rest that holds 2 kg carries 20 N.
-TEST(Hold, BreaksWhereItIsNotStrongEnough) {
+TEST(Hold, BreaksAboveItsStrength) {
   for (const double strength_n : {15.0, 60.0}) {
     World world;
     world.SetFloor(Ground());
@@ -257,7 +257,7 @@ TEST(Hold, IsSharedByHandsOfTwoPeople) {
   EXPECT_TRUE(world.HoldersOf(box).empty());
 }
 
-TEST(Objects, TellHowFarAPointIsFromTheirSurface) {
+TEST(Objects, DistanceToTheirSurfaceIsExact) {
   World world;
   ObjectOptions options = Box({1, 0, 0});  // edges of 0.2 m
   options.orientation = Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ());
@@ -275,7 +275,7 @@ TEST(Objects, TellHowFarAPointIsFromTheirSurface) {
   EXPECT_NEAR(world.DistanceTo(compound, {0.2, 0, 0}), 0.2, 1e-12);
 }
 
-TEST(ContactReport, SaysThatTheFloorCarriesAWeight) {
+TEST(ContactReport, ReportsTheFloorsForceUnderAWeight) {
   World world;
   world.SetFloor(Ground());
   const int box = world.AddObject(Box({0, 0.1, 0}));
@@ -299,7 +299,7 @@ TEST(ContactReport, SaysThatTheFloorCarriesAWeight) {
   EXPECT_EQ(begun, 1);
 }
 
-TEST(ContactReport, IsOfTwoPeopleToo) {
+TEST(ContactReport, ReportsContactsOfTwoPeople) {
   World world;
   world.SetFloor(Ground());
   const int a = world.AddCharacter(Lengths(), Moved(StandingPerson(), {0.3, 0, 0}));
@@ -320,7 +320,7 @@ TEST(ContactReport, IsOfTwoPeopleToo) {
   EXPECT_GT(met, 0);
 }
 
-TEST(Groups, DecideWhoMeets) {
+TEST(Groups, DecideCollisions) {
   for (const bool meet : {true, false}) {
     World world;
     world.SetFloor(Ground());
@@ -334,7 +334,7 @@ TEST(Groups, DecideWhoMeets) {
   }
 }
 
-TEST(Callbacks, DecideWhoMeetsAndActBetweenSubsteps) {
+TEST(Callbacks, FilterCollisionsAndActBetweenSubsteps) {
   World world;
   world.SetFloor(Ground());
   world.AddObject(Box({0, 0.1, 0}));

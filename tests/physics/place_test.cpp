@@ -51,7 +51,7 @@ struct Armed {
 
 class Placed : public testing::TestWithParam<bool> {};
 
-TEST_P(Placed, TakesWhatIsHeldAlongAtRest) {
+TEST_P(Placed, MovesHeldObjectsAlongAtRest) {
   Armed armed(GetParam());
   const double from_hand_m = (armed.Mace() - armed.Hand()).norm();
   const recon::Posture there = MovedBy(StandingPerson(), {3.0, 0.0, 1.0});
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Grips, Placed, testing::Values(true, false), [](const a
   return info.param ? std::string("Rigid") : std::string("Loose");
 });
 
-TEST(Place, LeavesConstraintsWhereTheyAre) {
+TEST(Place, KeepsConstraints) {
   for (const bool hard : {false, true}) {
     World world;
     const int person = world.AddCharacter(Lengths(), StandingPerson());
@@ -84,7 +84,7 @@ TEST(Place, LeavesConstraintsWhereTheyAre) {
   }
 }
 
-TEST(Place, ForgetsAnImpulseThatIsNotSpent) {
+TEST(Place, DiscardsPendingImpulses) {
   World world;
   const int person = world.AddCharacter(Lengths(), StandingPerson());
   world.ApplyImpulse(person, Joint::kHandRight, {0.0, 0.0, 50.0});
@@ -95,13 +95,13 @@ TEST(Place, ForgetsAnImpulseThatIsNotSpent) {
   EXPECT_LT((hand - StandingPerson()[Joint::kHandRight]).norm(), 0.01);
 }
 
-TEST(SetVelocity, IsOfWhatIsHeldToo) {
+TEST(SetVelocity, AppliesToHeldObjects) {
   Armed armed;
   armed.world.SetVelocity(armed.person, {0.0, 0.0, 2.0});
   EXPECT_NEAR(armed.MaceSpeed(), 2.0, 1e-9);
 }
 
-TEST(Rescue, BringsWhatIsHeldBack) {
+TEST(Rescue, RestoresHeldObjectsToo) {
   Armed armed;
   armed.world.ApplyImpulse(armed.person, Joint::kHandRight, {1e300, 0.0, 0.0});
   armed.Run(StandingPerson(), 1);
@@ -112,7 +112,7 @@ TEST(Rescue, BringsWhatIsHeldBack) {
   EXPECT_LT(armed.MaceSpeed(), 1.0);
 }
 
-TEST(Rescue, LetsAThingThatIsLostRestWhereItWas) {
+TEST(Rescue, LostObjectRestsAtItsLastPosition) {
   World world;
   ObjectOptions ball;
   ball.shape = Shape::kBall;
@@ -130,7 +130,7 @@ double TwistBetween(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
 }
 
 // The turn of a forearm about itself moves no joint; only the target's orientations tell it.
-TEST(SetTarget, TurnsBonesAboutThemselvesAsItsOrientationsSay) {
+TEST(SetTarget, TwistsBonesByTheGivenOrientations) {
   constexpr double kTwist_rad = 0.8;
   constexpr size_t kForearm = 6;
   const recon::JointOrientations plain = recon::ComputeOrientations(StandingPerson());

@@ -73,7 +73,7 @@ std::vector<Vector3d> PlacesIn(const World& world) {
   return places;
 }
 
-TEST(Snapshot, RestoredGoesOnAsItDid) {
+TEST(Snapshot, RestoredWorldContinuesIdentically) {
   Scene scene;
   scene.Run(40);
   ASSERT_TRUE(scene.world.StateOf(scene.dancer).left_foot_pinned);
@@ -89,7 +89,7 @@ TEST(Snapshot, RestoredGoesOnAsItDid) {
   EXPECT_EQ(PlacesIn(scene.world), later);
 }
 
-TEST(Snapshot, GoesOnInAnotherWorldToo) {
+TEST(Snapshot, ContinuesInAnotherWorld) {
   Scene scene;
   scene.Run(20);
   Scene copy;
@@ -102,7 +102,7 @@ TEST(Snapshot, GoesOnInAnotherWorldToo) {
   EXPECT_EQ(copy.world.AddObject({}), scene.world.AddObject({}));
 }
 
-TEST(Snapshot, RemembersNothingOfAMotorCharacterThatIsGone) {
+TEST(Snapshot, ForgetsARemovedMotorCharacter) {
   Scene scene;
   CharacterOptions options;
   options.control = Control::kMotor;
@@ -117,12 +117,12 @@ TEST(Snapshot, RemembersNothingOfAMotorCharacterThatIsGone) {
   EXPECT_EQ(PlacesIn(copy.world), PlacesIn(scene.world));
 }
 
-TEST(Snapshot, OfNothingIsRefused) {
+TEST(Snapshot, EmptyOneIsRefused) {
   World world;
   EXPECT_THROW(world.Restore(WorldSnapshot{}), std::invalid_argument);
 }
 
-TEST(Worlds, OnSeveralThreadsDoAsOneAlone) {
+TEST(Worlds, OnSeveralThreadsEqualASingleOne) {
   Scene alone;
   alone.Run(25);
   std::vector<std::vector<Vector3d>> places(4);

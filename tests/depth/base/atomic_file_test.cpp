@@ -17,7 +17,7 @@
 namespace ossa {
 namespace {
 
-TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
+TEST(AtomicFile, LeavesNoFileWithoutCommit) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("ossa_atomic_" + std::to_string(getpid()));
   std::filesystem::create_directory(folder);
@@ -32,7 +32,7 @@ TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
 }
 
 // A rename would replace /dev/null by a file.
-TEST(AtomicFile, TakesThePlaceOfAFileOnly) {
+TEST(AtomicFile, ReplacesRegularFilesOnly) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "folder");
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
@@ -44,7 +44,7 @@ TEST(AtomicFile, TakesThePlaceOfAFileOnly) {
 }
 
 // Otherwise a link to another disk would be replaced by a file on this one.
-TEST(AtomicFile, ALinkStaysAndWhatItLeadsToIsWritten) {
+TEST(AtomicFile, WritesTheTargetOfALink) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "large_disk");
   std::filesystem::create_symlink("large_disk/out", folder / "link");
@@ -63,7 +63,7 @@ TEST(AtomicFile, ALinkStaysAndWhatItLeadsToIsWritten) {
   EXPECT_THROW(AtomicFile::CheckWritable(folder / "round"), InputError);
 }
 
-TEST(AtomicFile, AFileThatMayNotBeWrittenIsNotReplaced) {
+TEST(AtomicFile, DoesNotReplaceAWriteProtectedFile) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anything";
   const test::TemporaryFolder folder;
   std::ofstream(folder / "kept") << "as it is";
@@ -72,7 +72,7 @@ TEST(AtomicFile, AFileThatMayNotBeWrittenIsNotReplaced) {
 }
 
 // Private files stay private, and group-shared ones shared.
-TEST(AtomicFile, AFileHandsItsPermissionsOn) {
+TEST(AtomicFile, KeepsThePermissionsOfAReplacedFile) {
   const test::TemporaryFolder folder;
   for (const mode_t mode : {0600U, 0664U}) {
     std::ofstream(folder / "out") << "old";
@@ -92,7 +92,7 @@ std::string TextOf(const std::filesystem::path& path) {
 }
 
 // Leftovers are listed but kept: they may be the user's only recording.
-TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
+TEST(AtomicFile, FindsAndKeepsLeftoversOfKilledProcesses) {
   const test::TemporaryFolder folder;
   const auto leave = [&](const std::string& name) {
     std::ofstream(folder / name) << "half";
@@ -114,7 +114,7 @@ TEST(AtomicFile, WhatTheKilledLeftIsKnownAndStays) {
 }
 
 // File names usually may have 255 bytes, all of which users may use.
-TEST(AtomicFile, ANameMayBeAsLongAsTheFileSystemTakes) {
+TEST(AtomicFile, AcceptsTheLongestNameOfTheFileSystem) {
   const test::TemporaryFolder folder;
   for (size_t length = 230; length <= 255; ++length) {
     std::string name = "n";
@@ -130,13 +130,13 @@ TEST(AtomicFile, ANameMayBeAsLongAsTheFileSystemTakes) {
 }
 
 // The extension identifies an incomplete recording.
-TEST(AtomicFile, ALongNameKeepsItsExtension) {
+TEST(AtomicFile, ShortenedNameKeepsItsExtension) {
   const test::TemporaryFolder folder;
   const AtomicFile file(folder / (std::string(251, 'n') + ".oni"));
   EXPECT_EQ(file.temporary_path().stem().extension(), ".oni");
 }
 
-TEST(AtomicFile, WhatTheKilledLeftOfALongNameIsNoOtherNames) {
+TEST(AtomicFile, LeftoversOfShortenedNamesDoNotCollide) {
   const test::TemporaryFolder folder;
   const auto first = folder / (std::string(254, 'n') + "1"),
              second = folder / (std::string(254, 'n') + "2");
@@ -150,7 +150,7 @@ TEST(AtomicFile, WhatTheKilledLeftOfALongNameIsNoOtherNames) {
   EXPECT_TRUE(AtomicFile::FindLeftovers(second).empty());
 }
 
-TEST(AtomicFile, WhatTheKilledLeftInAFolderIsRemoved) {
+TEST(AtomicFile, RemovesLeftoversInAFolder) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "depth");
   const std::string left = folder / "depth/0.png.partial-0123456789ab";
@@ -164,7 +164,7 @@ TEST(AtomicFile, WhatTheKilledLeftInAFolderIsRemoved) {
   EXPECT_TRUE(std::filesystem::exists(alive.temporary_path()));
 }
 
-TEST(AtomicFile, WhatTheKilledLeftOfOneFileIsRemoved) {
+TEST(AtomicFile, RemovesLeftoversOfOneFile) {
   const test::TemporaryFolder folder;
   const std::string left = folder / "m.partial-0123456789ab", notes = folder / "m.partial-notes";
   const std::string others = folder / "m2.partial-0123456789ab", made = folder / "m";
@@ -181,7 +181,7 @@ TEST(AtomicFile, WhatTheKilledLeftOfOneFileIsRemoved) {
 
 // Two writers of one name, in one process or two: each writes its own file, and the result is
 // complete.
-TEST(AtomicFile, OfTwoWritersTheLastOnesIsWhole) {
+TEST(AtomicFile, LastOfTwoWritersWinsWithACompleteFile) {
   const test::TemporaryFolder folder;
   AtomicFile first(folder / "out"), second(folder / "out");
   EXPECT_NE(first.temporary_path(), second.temporary_path());
@@ -195,7 +195,7 @@ TEST(AtomicFile, OfTwoWritersTheLastOnesIsWhole) {
 
 // In a folder that others may write to, a link is put in the file's place: its target is not
 // modified.
-TEST(AtomicFile, NeverWritesThroughALinkThatWasPutInItsPlace) {
+TEST(AtomicFile, NeverWritesThroughALinkUnderItsTemporaryName) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "precious") << "precious";
   AtomicFile file(folder / "out");
@@ -217,7 +217,7 @@ TEST(AtomicFile, IsLockedWhileItIsWritten) {
   close(other);
 }
 
-TEST(AtomicFile, WhatIsCutOffIsGoneAndWritingGoesOnThere) {
+TEST(AtomicFile, CutToTruncatesAndContinuesThere) {
   const test::TemporaryFolder folder;
   AtomicFile file(folder / "out");
   file.stream() << "kept, gone" << std::flush;
@@ -232,7 +232,7 @@ TEST(AtomicFile, WhatIsCutOffIsGoneAndWritingGoesOnThere) {
   EXPECT_EQ(text, "kept!");
 }
 
-TEST(AtomicFile, WhatIsTakenOutIsGoneAndTheRestMovesUp) {
+TEST(AtomicFile, RemoveBytesMovesUpTheRest) {
   const test::TemporaryFolder folder;
   AtomicFile file(folder / "out");
   const std::string rows(size_t{3} << 20, 'r');  // more than is moved at a time
@@ -243,7 +243,7 @@ TEST(AtomicFile, WhatIsTakenOutIsGoneAndTheRestMovesUp) {
   EXPECT_EQ(TextOf(folder / "out"), "head" + rows + "end");
 }
 
-TEST(AtomicFile, HeadsAreWrittenOver) {
+TEST(AtomicFile, HeaderCanBeOverwritten) {
   const test::TemporaryFolder folder;
   AtomicFile file(folder / "out");
   file.stream() << "0 rows\nrow\n";
@@ -253,7 +253,7 @@ TEST(AtomicFile, HeadsAreWrittenOver) {
   EXPECT_EQ(TextOf(folder / "out"), "1 rows\nrow\n");
 }
 
-TEST(AtomicFile, AFullDiskIsKnownBeforeTheEnd) {
+TEST(AtomicFile, ReportsAFullDiskBeforeTheEnd) {
   const test::TemporaryFolder folder;
   AtomicFile file(folder / "out");
   EXPECT_NO_THROW(file.Check());
@@ -261,7 +261,7 @@ TEST(AtomicFile, AFullDiskIsKnownBeforeTheEnd) {
   EXPECT_THROW(file.Check(), InputError);
 }
 
-TEST(AtomicFile, OnAFullDiskTakesNoMoreAndSaysSo) {
+TEST(AtomicFile, ThrowsOnAFullDisk) {
   const test::TemporaryFolder folder;
   const test::FullDisk disk(10);
   AtomicFile file(folder / "out");

@@ -30,7 +30,7 @@ std::vector<std::byte> ContainerExample() {
   return {bytes.begin(), bytes.end()};
 }
 
-TEST(ChecksummedContainer, GivesBackWhatWasWritten) {
+TEST(ChecksummedContainer, RoundTripIsExact) {
   const auto payload = ReadContainerBytes(ContainerExample(), "x", kFormat);
   PayloadReader reader(payload, "x");
   EXPECT_EQ(reader.Get<int32_t>("number"), 42);
@@ -45,7 +45,7 @@ struct Damage {
 
 class DamagedContainer : public testing::TestWithParam<Damage> {};
 
-TEST_P(DamagedContainer, IsRefusedByTheNameOfTheField) {
+TEST_P(DamagedContainer, IsRefusedWithTheFieldsName) {
   auto bytes = ContainerExample();
   bytes.at(GetParam().byte) ^= std::byte{0x10};
   try {
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(EveryField, DamagedContainer,
                                          Damage{24, "checksum"}, Damage{33, "checksum"}));
 
 // A sparse file of a terabyte.
-TEST(ChecksummedContainer, AnotherFileIsRefusedByItsHeaderBeforeAllocating) {
+TEST(ChecksummedContainer, OtherFileIsRefusedByItsHeaderBeforeAllocating) {
   const test::TemporaryFolder folder;
   for (const auto& [name, field] : {std::pair("other", "magic"), {"longer", "length"}}) {
     if (name == std::string("other")) {
@@ -76,7 +76,7 @@ TEST(ChecksummedContainer, AnotherFileIsRefusedByItsHeaderBeforeAllocating) {
   }
 }
 
-TEST(ChecksummedContainer, OneThatIsNotThereIsSaidToBeMissing) {
+TEST(ChecksummedContainer, MissingFileIsReportedAsMissing) {
   const test::TemporaryFolder folder;
   test::ExpectRefused([&] { ReadContainer(folder / "none", kFormat); },
                       "none: no such file: expected a test file");
@@ -90,7 +90,7 @@ TEST(ChecksummedContainer, ShorterThanItsHeaderIsRefused) {
   test::ExpectRefused([&] { ReadContainer(folder / "short", kFormat); }, "found 8 bytes");
 }
 
-TEST(ChecksummedContainer, TellsItsChecksumWhateverTheFileIsCalled) {
+TEST(ChecksummedContainer, ChecksumIsIndependentOfTheName) {
   const test::TemporaryFolder folder;
   const auto written = [&](const char* name, std::byte first) {
     WriteContainer(folder / name, kFormat, std::vector<std::byte>{first, std::byte{7}});
@@ -102,7 +102,7 @@ TEST(ChecksummedContainer, TellsItsChecksumWhateverTheFileIsCalled) {
   EXPECT_THROW(ReadContainerChecksum(folder / "short"), InputError);
 }
 
-TEST(ChecksummedContainer, ACountLargerThanTheFileIsRefusedBeforeAllocating) {
+TEST(ChecksummedContainer, CountBeyondTheFileIsRefusedBeforeAllocating) {
   PayloadWriter writer;
   writer.Put<uint64_t>(uint64_t{1} << 60);
   PayloadReader reader(writer.bytes(), "x");
@@ -110,7 +110,7 @@ TEST(ChecksummedContainer, ACountLargerThanTheFileIsRefusedBeforeAllocating) {
 }
 
 // Opening it would wait for a writer.
-TEST(OpenFile, APipeIsNoFile) {
+TEST(OpenFile, PipeIsRefused) {
   const test::TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_FALSE(OpenFile(folder / "pipe"));

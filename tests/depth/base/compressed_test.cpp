@@ -18,7 +18,7 @@ std::vector<std::byte> Steps() {
   return bytes;
 }
 
-TEST(Compressed, BytesAreFewerAndComeBack) {
+TEST(Compressed, RoundTripIsExactAndSmaller) {
   for (const int level : {3, 19}) {
     const std::vector<std::byte> fewer = Compress(Steps(), level);
     EXPECT_LT(fewer.size(), 500U);
@@ -28,7 +28,7 @@ TEST(Compressed, BytesAreFewerAndComeBack) {
 }
 
 // Other damage is detected by the file's checksum.
-TEST(Compressed, WhatZstdDidNotMakeIsRefusedByName) {
+TEST(Compressed, OtherDataAreRefusedByName) {
   constexpr size_t kFrame = 2 * sizeof(uint64_t);  // after two lengths
   std::vector<std::byte> damaged = Compress(Steps(), 3);
   damaged[kFrame] ^= std::byte{0xff};
@@ -38,7 +38,7 @@ TEST(Compressed, WhatZstdDidNotMakeIsRefusedByName) {
   test::ExpectRefused([&] { Decompress(damaged, "x.file", "thing"); }, "compressed payload");
 }
 
-TEST(Compressed, LengthsThatNoFileHoldsAreRefused) {
+TEST(Compressed, HugeLengthsAreRefused) {
   for (const uint64_t size : {uint64_t{999}, uint64_t{1001}, uint64_t{1} << 31U, ~uint64_t{0}}) {
     std::vector<std::byte> lying = Compress(Steps(), 3);
     std::memcpy(lying.data(), &size, sizeof(size));
@@ -54,7 +54,7 @@ std::vector<std::byte> Noise(size_t size) {
 }
 
 // Refused before allocation, not as damaged data.
-TEST(Compressed, ALengthThatSoFewBytesCannotHoldIsRefused) {
+TEST(Compressed, ImplausibleLengthIsRefused) {
   std::vector<std::byte> lying = Compress(Noise(8000), 3);
   for (const uint64_t size : {uint64_t{1} << 30U, uint64_t{8001}}) {
     std::memcpy(lying.data(), &size, sizeof(size));
@@ -62,7 +62,7 @@ TEST(Compressed, ALengthThatSoFewBytesCannotHoldIsRefused) {
   }
 }
 
-TEST(Compressed, TheMostThatZstdCanHoldComesBack) {
+TEST(Compressed, MostCompressibleDataAreAccepted) {
   const std::vector<std::byte> zeros(size_t{1} << 26U);
   EXPECT_EQ(Decompress(Compress(zeros, 3), "x", "thing"), zeros);
 }

@@ -8,15 +8,15 @@ namespace ossa {
 namespace {
 
 // Names quoted from a damaged model may contain line breaks (found by fuzzing).
-TEST(InputErrors, StayOneLineWhateverTheyQuote) {
+TEST(InputErrors, StayOneLineForAnyQuotedText) {
   EXPECT_STREQ(InputError("a.ossa: target 'He\nad\x1B'").what(), "a.ossa: target 'He\\x0Aad\\x1B'");
 }
 
-TEST(InputErrors, KeepLettersBeyondAscii) {
+TEST(InputErrors, KeepNonAsciiLetters) {
   EXPECT_STREQ(InputError("J\xC3\xBCrgen.ossa: empty").what(), "J\xC3\xBCrgen.ossa: empty");
 }
 
-TEST(InputErrors, WriteBytesThatAreNoTextAsNumbers) {
+TEST(InputErrors, EscapeInvalidBytes) {
   const std::string cut = "\xC3", second_only = "\x80", too_long = "\xC0\xAF",
                     surrogate = "\xED\xA0\x80", too_large = "\xF4\x90\x80\x80",
                     control = "\xC2\x9B";

@@ -7,7 +7,7 @@
 namespace ossa {
 namespace {
 
-TEST(MpiLaunch, OfSeveralProcessesIsRefusedByABuildWithoutMpi) {
+TEST(MpiLaunch, SeveralProcessesAreRefusedByABuildWithoutMpi) {
   unsetenv("OMPI_COMM_WORLD_SIZE");
   unsetenv("PMI_SIZE");
   RefuseToShareWithoutMpi();

@@ -16,14 +16,14 @@ TEST(Random, IsSplitMix64) {
   EXPECT_EQ(random.Bits(), 9817491932198370423ULL);
 }
 
-TEST(Random, GivesTheNumberAtAnIndexOfItsSequence) {
+TEST(Random, NumberAtAnIndexEqualsTheSequence) {
   Random random(5);
   for (uint64_t index = 0; index < 10; ++index) {
     EXPECT_EQ(Random::BitsAt(5, index), random.Bits()) << index;
   }
 }
 
-TEST(Random, HasStreamsThatDiffer) {
+TEST(Random, StreamsDiffer) {
   EXPECT_NE(Random(5, 0).Bits(), Random(5, 1).Bits());
   EXPECT_NE(Random(5, 0).Bits(), Random(6, 0).Bits());
   EXPECT_EQ(Random(5, 1).Bits(), Random(5, 1).Bits());

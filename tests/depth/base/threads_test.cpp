@@ -13,7 +13,7 @@ namespace ossa {
 namespace {
 
 // Libraries print nothing. Must be the first test: TBB prints its warning once.
-TEST(ParallelFor, SaysNothingOfThreadsThatThereAreNot) {
+TEST(ParallelFor, DoesNotWarnAboutTooManyThreads) {
   testing::internal::CaptureStderr();
   std::atomic<int> done = 0;
   ParallelFor(5000, 2000, [&](size_t) { ++done; });
@@ -21,7 +21,7 @@ TEST(ParallelFor, SaysNothingOfThreadsThatThereAreNot) {
   EXPECT_EQ(done, 5000);
 }
 
-TEST(ParallelFor, DoesEverythingOnceWhateverTheThreads) {
+TEST(ParallelFor, RunsEveryIndexOnceForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 7}) {
     std::vector<std::atomic<int>> done(100);
     ParallelFor(done.size(), threads, [&](size_t i) { ++done[i]; });
@@ -37,7 +37,7 @@ TEST(ParallelFor, IsInOrderOnOneThread) {
   EXPECT_EQ(order, wanted);
 }
 
-TEST(ParallelFor, PassesOnWhatIsThrown) {
+TEST(ParallelFor, RethrowsExceptions) {
   const ThreadLimit limit(2);
   EXPECT_THROW(ParallelFor(50,
                            [](size_t i) {
@@ -54,7 +54,7 @@ double ResidentMegabytes() {
 }
 
 // A tracker that runs for days starts such loops in every frame.
-TEST(ParallelFor, TakesNoMemoryThatItDoesNotGiveBack) {
+TEST(ParallelFor, DoesNotLeakMemory) {
   const auto loop = [](int times) {
     for (int i = 0; i < times; ++i) ParallelFor(2, 2, [](size_t) {});
   };
@@ -79,7 +79,7 @@ TEST(WithThreads, IsForSeveralCallersAndWithinLoops) {
   EXPECT_EQ(done, 2 * 50 * 8 * 4);
 }
 
-TEST(WithThreads, PassesOnWhatIsThrownAndGoesOn) {
+TEST(WithThreads, RethrowsExceptionsAndContinues) {
   for (int i = 0; i < 3; ++i)
     EXPECT_THROW(WithThreads(2, [] { throw std::runtime_error("no"); }), std::runtime_error);
   int done = 0;

@@ -101,7 +101,7 @@ r:
 
 class StatedCalibration : public testing::TestWithParam<const char*> {};
 
-TEST_P(StatedCalibration, IsReadAsItIsWritten) {
+TEST_P(StatedCalibration, IsRead) {
   const auto found = FindCalibration(GetParam(), "x");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->width, 640);
@@ -114,14 +114,14 @@ INSTANTIATE_TEST_SUITE_P(EachProgram, StatedCalibration,
                          testing::Values(kOst, kOpenCvYaml, kXml, kJson, kCameraInfo));
 
 // As MATLAB has it, and Record3D's metadata.
-TEST(Calibration, ColumnByColumnIsTheSame) {
+TEST(Calibration, ColumnMajorMatrixIsRead) {
   const auto found =
       FindCalibration(R"({"w": 192, "K": [212.5, 0, 0, 0, 213, 0, 96, 128, 1]})", "x");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->matrix, (std::array<double, 9>{212.5, 0, 96, 0, 213, 128, 0, 0, 1}));
 }
 
-TEST(Calibration, IntrinsicsAreAMatrixWhereTheyAreNineNumbers) {
+TEST(Calibration, IntrinsicsMayBeAMatrixOfNineNumbers) {
   const std::string matrix = "<data>\n 525. 0. 319.5 0. 526. 239.5 0. 0. 1.</data>";
   const auto found =
       FindCalibration("<intrinsics type_id=\"opencv-matrix\">\n" + matrix + "</intrinsics>", "x");
@@ -130,7 +130,7 @@ TEST(Calibration, IntrinsicsAreAMatrixWhereTheyAreNineNumbers) {
   EXPECT_FALSE(FindCalibration(R"({"intrinsics": {"fx": 525}})", "x"));
 }
 
-TEST(Calibration, OfNumbersAloneIsTheirMatrix) {
+TEST(Calibration, NumbersAloneAreAMatrix) {
   const std::array<double, 9> expected = {575.5, 0, 323, 0, 577, 236, 0, 0, 1};
   for (const char* text :
        {"575.5 0 323\n0 577 236\n0 0 1\n", "[575.5, 0, 323; 0, 577, 236; 0, 0, 1]",
@@ -145,20 +145,20 @@ TEST(Calibration, OfNumbersAloneIsTheirMatrix) {
   }
 }
 
-TEST(Calibration, OfOtherTextsIsNone) {
+TEST(Calibration, OtherTextHasNone) {
   for (const char* text : {"", "{}", "camera: K", "%YAML:1.0", R"({"width": 64, "fx": 1})"}) {
     EXPECT_FALSE(FindCalibration(text, "x")) << text;
   }
 }
 
-TEST(Calibration, OfFewNumbersIsRefused) {
+TEST(Calibration, TooFewNumbersAreRefused) {
   test::ExpectRefused([] { FindCalibration("K: [1, 2, x, 3]", "a.yaml"); },
                       "a.yaml: expected nine numbers of a camera matrix, found 2");
   EXPECT_THROW(FindCalibration("width: many\nK: [1,0,0,0,1,0,0,0,1]", "a.yaml"), InputError);
 }
 
 // Along the diagonal from the centre k1 moves a corner by f k1 r^3: of f 100 and r 0.5 by 12.5 k1.
-TEST(CornerShift, IsByTheLensAtTheCorner) {
+TEST(CornerShift, IsTheDistortionAtTheCorner) {
   Calibration calibration{.width = 61, .height = 81, .matrix = {100, 0, 30, 0, 100, 40, 0, 0, 1}};
   EXPECT_EQ(ComputeCornerShift(calibration), 0.0);
   calibration.distortion = {0.2, 0, 0, 0, 0};
@@ -178,7 +178,7 @@ class CameraFile : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(CameraFile, IsAChoiceOfACamera) {
+TEST_F(CameraFile, GivesTheCameraOfTheOption) {
   const CameraChoice choice = ParseCamera(Write("ost.yaml", kOst));
   EXPECT_EQ(choice.camera, (Camera{640, 480, 580.5, 579, 318.25, 241.5}));
   EXPECT_NE(choice.unheeded.find("ost.yaml: the lens moves the image's corners by "),
@@ -190,32 +190,32 @@ TEST_F(CameraFile, IsAChoiceOfACamera) {
   EXPECT_EQ(plain.unheeded, "");
 }
 
-TEST_F(CameraFile, WithoutASizeIsOfWhateverImagesCome) {
+TEST_F(CameraFile, WithoutASizeFitsAnyImages) {
   const CameraChoice choice = ParseCamera(Write("k.yml", "K: [100, 0, 30, 0, 110, 40, 0, 0, 1]\n"));
   EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40}));
 }
 
-TEST_F(CameraFile, MayBeTheNumbersOfTheMatrixAlone) {
+TEST_F(CameraFile, MayBeAMatrixOfNumbersOnly) {
   const CameraChoice choice = ParseCamera(Write("k.txt", "100 0 30\n0 110 40\n0 0 1\n"));
   EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40}));
   test::ExpectRefused([&] { ParseCamera(Write("a.txt", "100 110\n")); },
                       "a.txt: expected a camera_m");
 }
 
-TEST_F(CameraFile, MayHaveAnyExtensionAndMoreNumbersBehindTheMatrix) {
+TEST_F(CameraFile, MayHaveAnyExtensionAndFurtherNumbers) {
   const CameraChoice choice =
       ParseCamera(Write("depth.cal", "100 0 30\n0 110 40\n0 0 1\n\n0 0 0 0\n\n64 48\n"));
   EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40}));
   test::ExpectRefused([&] { ParseCamera((folder_ / "none.cal").string()); }, "--camera: expected");
 }
 
-TEST_F(CameraFile, MayNameTheCentreAsRealSenseDoes) {
+TEST_F(CameraFile, AcceptsRealSenseNamesOfTheCentre) {
   const CameraChoice choice = ParseCamera(Write(
       "rs.json", R"({"width": 64, "height": 48, "fx": 100, "fy": 110, "ppx": 30, "ppy": 40})"));
   EXPECT_EQ(choice.camera, (Camera{64, 48, 100, 110, 30, 40}));
 }
 
-TEST_F(CameraFile, ThatStatesNoCameraIsRefused) {
+TEST_F(CameraFile, FileWithoutACameraIsRefused) {
   test::ExpectRefused([&] { ParseCamera(Write("a.yaml", "fps: 30\n")); },
                       "a.yaml: expected a camera_matrix");
   test::ExpectRefused([&] { ParseCamera(Write("b.yaml", "K: [0,0,0,0,0,0,0,0,0]")); },

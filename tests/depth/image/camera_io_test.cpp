@@ -18,7 +18,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-TEST(CameraJson, GivesBackExactlyWhatWasWritten) {
+TEST(CameraJson, RoundTripIsExact) {
   const TemporaryFolder folder;
   const Camera camera{320, 240, 285.1234567890123, 286.5, 1.0 / 3.0, 119.75};
   WriteCameraJson(folder / "camera.json", camera);
@@ -26,7 +26,7 @@ TEST(CameraJson, GivesBackExactlyWhatWasWritten) {
 }
 
 // Reading a pipe without a writer would block, whatever signal arrives.
-TEST(CameraJson, APipeIsNone) {
+TEST(CameraJson, PipeIsRefused) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "camera.json").c_str(), 0600), 0);
   auto read =
@@ -40,7 +40,7 @@ TEST(CameraJson, APipeIsNone) {
 
 class BadCameraJson : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
-TEST_P(BadCameraJson, IsRefusedByTheNameOfTheField) {
+TEST_P(BadCameraJson, IsRefusedWithTheFieldsName) {
   try {
     CameraFromJson(GetParam().first, "camera.json");
     FAIL() << "not noticed";
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair(R"({"width":64,"height":48,"fx":1,"fy":1,"cx":1e9,"cy":0})", "\"cx\""),
         std::pair(R"({"width":64,"height":48,"fx":1,"fy":1,"cx":1})", "\"cy\"")));
 
-TEST(CameraJson, ThatNestsDeepIsRefusedBeforeItIsParsed) {
+TEST(CameraJson, DeepNestingIsRefusedBeforeParsing) {
   const std::string deep = "{\"width\":" + std::string(100'000, '[') + "1";
   test::ExpectRefused([&] { CameraFromJson(deep, "camera.json"); },
                       "camera.json: expected JSON that nests at most 32 deep");
@@ -77,13 +77,13 @@ TEST(ManifestCamera, IsTheCameraObject) {
   EXPECT_THROW(ReadManifestCamera(folder / "none.json"), InputError);
 }
 
-TEST(CameraOption, KinectScalesAndNumbersDoNot) {
+TEST(CameraOption, PresetsScaleAndNumbersDoNot) {
   EXPECT_EQ(CameraForSize(ParseCamera("kinect-v1"), 320, 240), KinectV1Camera(320, 240));
   const Camera camera = CameraForSize(ParseCamera("525,526,319.5,239.5"), 320, 240);
   EXPECT_EQ(camera, (Camera{320, 240, 525, 526, 319.5, 239.5}));
 }
 
-TEST(CameraOption, AnythingElseIsRefused) {
+TEST(CameraOption, OtherTextIsRefused) {
   for (const char* text :
        {"", "kinect", "1,2,3", "1,2,3,4,5", "1,2,3,", ",1,2,3,4", "0,1,2,3", "525,-1,2,3",
         "nan,1,2,3", "1,inf,2,3", "1e-300,1,2,3", "1,1e7,2,3", "1,1,1e300,3", "5 2,1,2,3"}) {

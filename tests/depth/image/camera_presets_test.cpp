@@ -18,7 +18,7 @@ struct Size {
 
 class ImageSizes : public testing::TestWithParam<Size> {};
 
-TEST_P(ImageSizes, TellTheCamera) {
+TEST_P(ImageSizes, DetermineTheCamera) {
   const auto [width, height, preset, f_px] = GetParam();
   const CameraGuess guess = GuessCamera(width, height);
   EXPECT_EQ(guess.preset, preset);
@@ -38,19 +38,19 @@ INSTANTIATE_TEST_SUITE_P(
                     Size{960, 540, "kinect-v2-color", 540.7}, Size{2048, 1536, "azure-color", 977},
                     Size{3840, 2160, "azure-color", 1832}));
 
-TEST(ImageSizes, StandingOnEndAreOfACameraOnItsSide) {
+TEST(ImageSizes, PortraitSizesAreACameraOnItsSide) {
   const CameraGuess guess = GuessCamera(424, 512);
   EXPECT_EQ(guess.preset, "kinect-v2");
   EXPECT_EQ(guess.camera, (Camera{424, 512, 366, 366, 212, 256}));
 }
 
-TEST(ImageSizes, OfNoKnownCameraAreAKinectV1s) {
+TEST(ImageSizes, UnknownSizesAreAKinectV1s) {
   const CameraGuess guess = GuessCamera(100, 100);
   EXPECT_FALSE(guess.sizes_match);
   EXPECT_EQ(guess.camera, KinectV1Camera(100, 100));
 }
 
-TEST(CameraPreset, NamedIsTheSameAsGuessed) {
+TEST(CameraPreset, NamedEqualsGuessed) {
   for (const int width : {60, 80, 100, 240, 320, 424, 480, 512, 576, 640, 848, 1024, 1280}) {
     for (const int height : {60, 80, 100, 240, 320, 424, 480, 512, 576, 640, 848, 1024, 1280}) {
       const CameraGuess guess = GuessCamera(width, height);
@@ -59,7 +59,7 @@ TEST(CameraPreset, NamedIsTheSameAsGuessed) {
   }
 }
 
-TEST(CameraPreset, HasSquarePixelsInImagesOfAnyShape) {
+TEST(CameraPreset, HasSquarePixelsForAnyAspectRatio) {
   for (const std::string_view name : CameraPresetNames()) {
     for (const auto& [width, height] : {std::pair(100, 100), {480, 640}, {640, 200}}) {
       const Camera camera = PresetCamera(name, width, height);
@@ -68,12 +68,12 @@ TEST(CameraPreset, HasSquarePixelsInImagesOfAnyShape) {
   }
 }
 
-TEST(CameraPreset, OfAnImageOnEndIsTheCameraOnItsSide) {
+TEST(CameraPreset, PortraitImageIsTheCameraOnItsSide) {
   EXPECT_EQ(PresetCamera("kinect-v1", 480, 640), (Camera{480, 640, 575, 575, 240, 320}));
   EXPECT_EQ(PresetCamera("xtion", 480, 640).fx, PresetCamera("xtion", 640, 480).fx);
 }
 
-TEST(CameraPreset, EachNameIsACameraOfTheSizeAsked) {
+TEST(CameraPreset, EveryNameGivesACameraOfTheRequestedSize) {
   for (const std::string_view name : CameraPresetNames()) {
     const Camera camera = CameraForSize(ParseCamera(std::string(name)), 640, 480);
     EXPECT_TRUE(IsSane(camera)) << name;
@@ -82,20 +82,20 @@ TEST(CameraPreset, EachNameIsACameraOfTheSizeAsked) {
 }
 
 // What rs-enumerate-devices prints of a D455.
-TEST(CameraPreset, ARealSenseCutsWhatDoesNotFitItsSensorsShape) {
+TEST(CameraPreset, RealSenseCropsToTheAspectRatio) {
   EXPECT_NEAR(PresetCamera("d455", 640, 480).fx, 384, 1);
   EXPECT_NEAR(PresetCamera("d455", 480, 270).fx, 240, 1);
 }
 
 // What rs-enumerate-devices prints of a D435's colour camera, to which its users align the depth.
-TEST(CameraPreset, ARealSensesColourCameraCutsItsSidesOff) {
+TEST(CameraPreset, RealSenseColourCameraCropsItsSides) {
   for (const auto& [width, height, f_px] :
        {std::tuple(1280, 720, 918.6), {640, 480, 612.4}, {640, 360, 459.3}, {320, 240, 306.2}}) {
     EXPECT_NEAR(PresetCamera("d435-color", width, height).fx / f_px, 1.0, 0.005);
   }
 }
 
-TEST(NarrowerCameras, AreColourCamerasAndPartsOfImages) {
+TEST(NarrowerCameras, AreColourCamerasAndCrops) {
   ASSERT_EQ(NarrowerCameras(1280, 720).size(), 1u);
   EXPECT_EQ(NarrowerCameras(1280, 720)[0].camera, PresetCamera("d435-color", 1280, 720));
   EXPECT_EQ(NarrowerCameras(1920, 1080).size(), 1u);
@@ -109,18 +109,18 @@ TEST(NarrowerCameras, AreColourCamerasAndPartsOfImages) {
 }
 
 // OpenNI's own figure for depth that it registered.
-TEST(CameraPreset, AlignedToTheColourCameraItSeesAWiderView) {
+TEST(CameraPreset, AlignedToTheColourCameraHasItsFieldOfView) {
   EXPECT_EQ(PresetCamera("kinect-v1-color", 320, 240).fx, 262.5);
 }
 
 // The middle of the sensor is not that of the narrow view.
-TEST(CameraPreset, AzuresNarrowViewLiesAboveTheMiddleOfTheSensor) {
+TEST(CameraPreset, AzureNarrowViewIsAboveTheSensorsCentre) {
   const Camera camera = PresetCamera("azure-nfov", 640, 576);
   EXPECT_DOUBLE_EQ(camera.cx, 319.5);
   EXPECT_DOUBLE_EQ(camera.cy, 331.5);
 }
 
-TEST(CameraPreset, AFemtosSquareImageIsTheWideView) {
+TEST(CameraPreset, SquareImageOfAFemtoIsTheWideView) {
   EXPECT_EQ(PresetCamera("femto", 512, 512), PresetCamera("azure-wfov", 512, 512));
   EXPECT_EQ(PresetCamera("femto", 640, 576), PresetCamera("azure-nfov", 640, 576));
 }

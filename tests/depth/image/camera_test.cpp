@@ -9,7 +9,7 @@
 namespace ossa::depth {
 namespace {
 
-TEST(Camera, ProjectUndoesBackProject) {
+TEST(Camera, ProjectionAndBackProjectionAreInverse) {
   const Camera camera = KinectV1Camera(640, 480);
   for (double u : {0.0, 17.25, 320.0, 639.0}) {
     for (double v : {0.0, 240.0, 479.5}) {
@@ -21,7 +21,7 @@ TEST(Camera, ProjectUndoesBackProject) {
   }
 }
 
-TEST(Camera, LeftOfTheImageIsPositiveXAndTopIsPositiveY) {
+TEST(Camera, ImageLeftIsPositiveXAndTopIsPositiveY) {
   const Camera camera = KinectV1Camera(640, 480);
   const Eigen::Vector3d point_m = BackProject(camera, 0.0, 0.0, 1000.0);
   EXPECT_GT(point_m.x(), 0.0);
@@ -34,7 +34,7 @@ TEST(Camera, KinectFocalLengthScalesWithTheWidth) {
   EXPECT_EQ(Resized(KinectV1Camera(640, 480), 320, 240), KinectV1Camera(320, 240));
 }
 
-TEST(Camera, CroppedSeesTheSamePointsElsewhere) {
+TEST(Camera, CroppingShiftsProjections) {
   const Camera whole = KinectV1Camera(640, 480), part = Cropped(whole, 320, 100, 320, 240);
   EXPECT_EQ(BackProject(part, 10, 20, 1500), BackProject(whole, 330, 120, 1500));
   EXPECT_EQ(part.width, 320);
@@ -46,7 +46,7 @@ struct Wrong {
   Camera camera;
 };
 
-TEST(Camera, ThatCannotBeIsRefusedByTheNameOfTheField) {
+TEST(Camera, InvalidFieldIsRefusedByName) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(IsSane(Camera{}));

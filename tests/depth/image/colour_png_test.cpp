@@ -26,7 +26,7 @@ std::vector<uint8_t> Gradient(size_t count) {
   return samples;
 }
 
-TEST(ColourPng, IsReadBackAsItWas) {
+TEST(ColourPng, RoundTripIsExact) {
   const std::vector<uint8_t> rgb = Gradient(5 * 3 * 3);
   ImageSize size;
   EXPECT_EQ(Read(EncodeColourPng(rgb, {5, 3}, 3), PNG_FORMAT_RGB, &size), rgb);

@@ -31,7 +31,7 @@ std::string Bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(DepthPng, GivesBackEveryOneOfThe65536Values) {
+TEST(DepthPng, RoundTripIsExactForAll65536Values) {
   const TemporaryFolder folder;
   Image<uint16_t> image(256, 256);
   for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = static_cast<uint16_t>(i);
@@ -49,7 +49,7 @@ TEST(DepthPng, WritesAViewIntoALargerImage) {
   EXPECT_EQ(back.at(4, 3), image.at(7, 4));
 }
 
-TEST(LabelPng, GivesBackWhatWasWritten) {
+TEST(LabelPng, RoundTripIsExact) {
   const TemporaryFolder folder;
   Image<uint8_t> labels(17, 16);
   for (size_t i = 0; i < labels.data.size(); ++i) labels.data[i] = static_cast<uint8_t>(i);
@@ -88,7 +88,7 @@ void SetWidth(std::string& bytes, uint32_t width) {
 
 class DamagedPng : public testing::TestWithParam<Damage> {};
 
-TEST_P(DamagedPng, IsRefusedInOneLineThatNamesFileAndPlace) {
+TEST_P(DamagedPng, IsRefusedInOneLineWithFileAndPlace) {
   const TemporaryFolder folder;
   const auto path = folder / "bad.png";
   WriteDepthPng(path, ViewOf(NoiseImage(64, 48)));
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-TEST(DepthPng, AFileThatIsNotThereIsNamed) {
+TEST(DepthPng, MissingFileIsNamed) {
   EXPECT_THROW(ReadDepthPng("/nowhere/x.png"), InputError);
   EXPECT_THROW(ReadDepthPng("/"), InputError);
 }

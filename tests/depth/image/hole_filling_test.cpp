@@ -37,7 +37,7 @@ int64_t CountHoles(const DepthFrame& frame) {
   return std::count(frame.depth_mm.begin(), frame.depth_mm.end(), 0);
 }
 
-TEST(FillScatteredHoles, LeavesAnImageAloneThatHasAsFewAsAStructuredLightSensor) {
+TEST(FillScatteredHoles, KeepsImagesWithAsFewHolesAsAStructuredLightSensor) {
   EXPECT_FALSE(FillScatteredHoles(NearBeforeFar()));
   EXPECT_FALSE(FillScatteredHoles(WithHoles(NearBeforeFar(), 0.01)));
 }
@@ -69,7 +69,7 @@ TEST(FillScatteredHoles, KeepsReadingsTimeAndCamera) {
   }
 }
 
-TEST(FillScatteredHoles, LeavesShadowsAndWhatIsCutOut) {
+TEST(FillScatteredHoles, KeepsShadowsAndCutOutRegions) {
   DepthFrame frame = NearBeforeFar();
   for (uint16_t& z_mm : frame.depth_mm) z_mm = z_mm == kFar_mm ? 0 : z_mm;
   const auto filled = FillScatteredHoles(WithHoles(frame, 0.2));
@@ -98,7 +98,7 @@ TEST(FillScatteredHoles, FillsMissingRowsAndColumns) {
   }
 }
 
-TEST(FillScatteredHoles, ReadsPartsOfALargerImageAndNothingBesideThem) {
+TEST(FillScatteredHoles, ReadsOnlyTheViewOfALargerImage) {
   const DepthFrame holed = WithHoles(NearBeforeFar(), 0.2);
   const int stride = kWidth + 9;
   std::vector<uint16_t> buffer(static_cast<size_t>(stride) * kHeight, 555);
@@ -114,7 +114,7 @@ TEST(FillScatteredHoles, ReadsPartsOfALargerImageAndNothingBesideThem) {
   EXPECT_EQ(filled->depth_mm, expected->depth_mm);
 }
 
-TEST(FillScatteredHoles, TakesImagesOfAnySize) {
+TEST(FillScatteredHoles, AcceptsImagesOfAnySize) {
   for (const int width : {1, 2, 3}) {
     for (const int height : {1, 2, 3}) {
       DepthFrame frame;

@@ -16,7 +16,7 @@ DepthFrame Marked() {
 
 class QuarterTurns : public testing::TestWithParam<int> {};
 
-TEST_P(QuarterTurns, KeepEveryPointWhereItIs) {
+TEST_P(QuarterTurns, KeepThePositionOfPoints) {
   const DepthFrame frame = Marked(), turned = Turned(frame, GetParam());
   const auto at = std::find(turned.depth_mm.begin(), turned.depth_mm.end(), 2000);
   ASSERT_NE(at, turned.depth_mm.end());
@@ -28,7 +28,7 @@ TEST_P(QuarterTurns, KeepEveryPointWhereItIs) {
   EXPECT_TRUE(back.isApprox(BackProject(frame.camera, 6, 1, 2000), 1e-12)) << back.transpose();
 }
 
-TEST_P(QuarterTurns, AreTurnedBackByTheRestOfFour) {
+TEST_P(QuarterTurns, AreInvertedByTheRemainingTurns) {
   const DepthFrame frame = Marked();
   const DepthFrame back = Turned(Turned(frame, GetParam()), (4 - GetParam()) % 4);
   EXPECT_EQ(back.depth_mm, frame.depth_mm);
@@ -38,7 +38,7 @@ TEST_P(QuarterTurns, AreTurnedBackByTheRestOfFour) {
 INSTANTIATE_TEST_SUITE_P(All, QuarterTurns, testing::Values(0, 1, 2, 3));
 
 // A mirror's camera sees a point at u = cx + fx x/z.
-TEST(Unmirrored, PutsPointsWhereTheMirrorShowedThem) {
+TEST(Unmirrored, MirrorsPoints) {
   const DepthFrame mirrored = Marked(), frame = Unmirrored(mirrored);
   EXPECT_EQ(frame.depth_mm[1 + 8 * 1], 2000);
   const Eigen::Vector3d point = BackProject(frame.camera, 1, 1, 2000);
@@ -49,7 +49,7 @@ TEST(Unmirrored, PutsPointsWhereTheMirrorShowedThem) {
   EXPECT_EQ(again.camera, mirrored.camera);
 }
 
-TEST(Unmirrored, LeavesABorrowedImageAlone) {
+TEST(Unmirrored, DoesNotChangeABorrowedImage) {
   DepthFrame owner = Marked();
   DepthFrame part = owner;
   part.depth_mm.clear();

@@ -45,7 +45,7 @@ TEST_P(StereoNoise, GrowsWithTheSquareOfTheDepth) {
 
 INSTANTIATE_TEST_SUITE_P(Distances, StereoNoise, testing::Values(1.0, 2.0, 4.0));
 
-TEST(ActiveStereo, ErrorsGoTogetherInBlobsAndMoveFromFrameToFrame) {
+TEST(ActiveStereo, ErrorsAreCorrelatedInSpaceAndIndependentInTime) {
   const RenderedImage wall = WallAt(kCamera, 2.0F);
   const auto image = Sense(wall, 1), next = Sense(wall, 2);
   EXPECT_GT(Correlation(image, image, 2000, 2), 0.7);
@@ -53,7 +53,7 @@ TEST(ActiveStereo, ErrorsGoTogetherInBlobsAndMoveFromFrameToFrame) {
   EXPECT_LT(std::abs(Correlation(image, next, 2000, 0)), 0.15);
 }
 
-TEST(ActiveStereo, ABlackBandIsAtTheLeftAsWideAsTheDisparity) {
+TEST(ActiveStereo, HasABlackBandAtTheLeftAsWideAsTheDisparity) {
   const auto image = Sense(WallAt(kCamera, 1.0F), 1, {.dropout_per_m2 = 0.0});
   const int band_px = static_cast<int>(502 * 0.055 / 1.0);
   for (int v = 0; v < kCamera.height; v += 20) {
@@ -62,7 +62,7 @@ TEST(ActiveStereo, ABlackBandIsAtTheLeftAsWideAsTheDisparity) {
   }
 }
 
-TEST(ActiveStereo, TheBandIsThatOfTheWholeImageAlsoInACrop) {
+TEST(ActiveStereo, BlackBandOfACropIsThatOfTheWholeImage) {
   Camera crop = kCamera;
   crop.width = 100;
   crop.cx -= 10;  // begins at column 10 of the whole
@@ -72,7 +72,7 @@ TEST(ActiveStereo, TheBandIsThatOfTheWholeImageAlsoInACrop) {
   EXPECT_GT(image.depth_mm.at(20, 100), 0);
 }
 
-TEST(ActiveStereo, NearSurfacesGrowByUpToHalfAWindowAndTakeTheirLabelAlong) {
+TEST(ActiveStereo, NearSurfacesGrowByUpToHalfAWindowWithTheirLabel) {
   const RenderedImage step = StepAt(kCamera, 1.5F, 3.0F);
   const auto image = Sense(step, 4, {.smeared = 0.0, .edge_dropout = 0.0});
   int grown = 0;
@@ -88,13 +88,13 @@ TEST(ActiveStereo, NearSurfacesGrowByUpToHalfAWindowAndTakeTheirLabelAlong) {
   EXPECT_GT(grown, kCamera.height);
 }
 
-TEST(ActiveStereo, WhatTheOtherImagerDoesNotSeeIsNotRead) {
+TEST(ActiveStereo, SurfacesHiddenFromTheOtherImagerHaveNoReading) {
   RenderedImage hidden = WallAt(kCamera, 2.0F);
   hidden.lit = Image<uint8_t>(kCamera.width, kCamera.height, 0);
   EXPECT_EQ(ReadShare(Sense(hidden, 1)), 0.0);
 }
 
-TEST(ActiveStereo, TheSameSeedGivesTheSameImage) {
+TEST(ActiveStereo, IsDeterministicForASeed) {
   const RenderedImage step = StepAt(kCamera, 1.5F, 3.0F);
   EXPECT_EQ(Sense(step, 1).depth_mm.data, Sense(step, 1).depth_mm.data);
 }

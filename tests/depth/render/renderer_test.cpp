@@ -20,7 +20,7 @@ TriangleMesh Board(float left_m, float right_m, float bottom_m, float top_m, flo
 
 const Camera kCamera{64, 48, 50.0, 50.0, 32.0, 24.0};
 
-TEST(Renderer, SeesABoardWhereThePinholeCameraPutsIt) {
+TEST(Renderer, ProjectsABoardByThePinholeModel) {
   Renderer renderer;
   const int board = renderer.AddMesh(Board(0.1F, 0.3F, -0.2F, 0.2F, 2.0F), false);
   const RenderedImage image = renderer.Render(kCamera);
@@ -76,7 +76,7 @@ TriangleMesh WallOfSquares() {
 }
 
 // Threads share a data set's frames: an image must not depend on earlier ones.
-TEST(Renderer, WhatItRenderedBeforeDecidesNoTie) {
+TEST(Renderer, TiesDoNotDependOnEarlierRenderings) {
   const TriangleMesh wall = WallOfSquares();
   std::vector<Eigen::Vector3f> rolled = wall.vertices_m;
   for (Eigen::Vector3f& p : rolled)
@@ -91,7 +91,7 @@ TEST(Renderer, WhatItRenderedBeforeDecidesNoTie) {
   EXPECT_EQ(used.Render(kCamera).triangle.data, fresh.Render(kCamera).triangle.data);
 }
 
-TEST(Renderer, ShadowsFallToTheImageLeftAsWideAsTheBaselineSays) {
+TEST(Renderer, ShadowsAreAtTheLeftWithTheWidthOfTheBaseline) {
   Renderer renderer;
   const Camera camera = KinectV1Camera(640, 480);
   const int near = renderer.AddMesh(Board(-0.1F, 0.1F, -0.5F, 0.5F, 1.0F), false);
@@ -108,7 +108,7 @@ TEST(Renderer, ShadowsFallToTheImageLeftAsWideAsTheBaselineSays) {
   EXPECT_NEAR(shadow_px, 0.075 / 2.0 * camera.fx, 2.0);  // an edge pixel either side
 }
 
-TEST(Renderer, RefusesATriangleWithoutItsVertex) {
+TEST(Renderer, RefusesInvalidVertexIndices) {
   TriangleMesh mesh = Board(0, 1, 0, 1, 1);
   mesh.triangles.push_back({0, 1, 4});
   EXPECT_THROW(Renderer().AddMesh(mesh, false), std::invalid_argument);

@@ -17,7 +17,7 @@ TEST(SensorModel, EverySensorHasItsNameAndOtherNamesAreNone) {
 
 class EverySensor : public testing::TestWithParam<SensorKind> {};
 
-TEST_P(EverySensor, ReadsAWallNearlyEverywhereAndWithoutBias) {
+TEST_P(EverySensor, MeasuresAWallNearlyEverywhereAndWithoutBias) {
   const Camera camera = KinectV1Camera(320, 240);
   const auto image = Simulate(MakeSensorModel(GetParam()), WallAt(camera, 2.0F), camera, camera, 5);
   EXPECT_GT(ReadShare(image), 0.9);
@@ -25,7 +25,7 @@ TEST_P(EverySensor, ReadsAWallNearlyEverywhereAndWithoutBias) {
   EXPECT_NEAR(SpreadOf(image, 320, 240).mean_mm, 2000.0, 1.5);
 }
 
-TEST_P(EverySensor, NamesTheSurfaceThatIsNearestToWhatItMeasures) {
+TEST_P(EverySensor, SourceIsTheSurfaceNearestToTheMeasurement) {
   const Camera camera = KinectV1Camera(320, 240);
   const RenderedImage step = StepAt(camera, 1.5F, 3.0F);
   const auto image = Simulate(MakeSensorModel(GetParam()), step, camera, camera, 9);

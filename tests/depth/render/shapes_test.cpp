@@ -17,7 +17,7 @@ double Volume_m3(const TriangleMesh& mesh) {
   return volume_m3;
 }
 
-TEST(Shapes, AreClosedAndHoldTheirVolume) {
+TEST(Shapes, AreClosedWithTheirVolume) {
   constexpr double kPi = std::numbers::pi;
   EXPECT_NEAR(Volume_m3(MakeBox({0.2F, 0.3F, 0.4F})), 0.024, 1e-6);
   // A polyhedron inside the ball: at 48 segments its volume is short by well under 1 %.
@@ -37,7 +37,7 @@ TEST(Shapes, FurnitureStandsOnTheFloor) {
   }
 }
 
-TEST(Shapes, ABallIsSeenAsClosedFormSays) {
+TEST(Shapes, DepthOfABallEqualsTheClosedForm) {
   Renderer renderer;
   const Camera camera = KinectV1Camera(320, 240);
   renderer.AddMesh(

@@ -46,7 +46,7 @@ TEST_P(SensorSteps, GrowWithTheSquareOfTheDepth) {
 
 INSTANTIATE_TEST_SUITE_P(Depths, SensorSteps, testing::Values(1200.0, 2000.0, 4000.0));
 
-TEST(StructuredLight, AWallIsReadWithoutBiasAndHardlyAHole) {
+TEST(StructuredLight, MeasuresAWallWithoutBiasAndWithFewHoles) {
   const Camera camera = KinectV1Camera(320, 240);
   const auto image = SimulateStructuredLight(WallAt(camera, 2.0F), camera, {}, 5);
   double sum_mm = 0;
@@ -61,7 +61,7 @@ TEST(StructuredLight, AWallIsReadWithoutBiasAndHardlyAHole) {
   EXPECT_NEAR(sum_mm / read, 2000.0, 1.0);
 }
 
-TEST(StructuredLight, ReadsNothingInShadowAndNothingTooNear) {
+TEST(StructuredLight, ShadowsAndTooNearSurfacesHaveNoReading) {
   const Camera camera = KinectV1Camera(320, 240);
   RenderedImage dark = WallAt(camera, 2.0F);
   dark.lit = Image<uint8_t>(320, 240, 0);
@@ -72,7 +72,7 @@ TEST(StructuredLight, ReadsNothingInShadowAndNothingTooNear) {
   }
 }
 
-TEST(StructuredLight, TheSameSeedGivesTheSameImageAndAnotherSeedAnother) {
+TEST(StructuredLight, DependsOnTheSeedOnly) {
   const Camera camera = KinectV1Camera(320, 240);
   const RenderedImage wall = WallAt(camera, 2.0F);
   const auto image = SimulateStructuredLight(wall, camera, {}, 1);
@@ -80,7 +80,7 @@ TEST(StructuredLight, TheSameSeedGivesTheSameImageAndAnotherSeedAnother) {
   EXPECT_NE(image.depth_mm.data, SimulateStructuredLight(wall, camera, {}, 2).depth_mm.data);
 }
 
-TEST(StructuredLight, SourcesSayWhichSurfaceWasMeasured) {
+TEST(StructuredLight, SourcesAreTheMeasuredSurfaces) {
   const Camera camera = KinectV1Camera(320, 240);
   RenderedImage step = WallAt(camera, 3.0F);
   for (int v = 0; v < 240; ++v) {

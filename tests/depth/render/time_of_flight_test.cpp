@@ -15,7 +15,7 @@ class FlightNoise : public testing::TestWithParam<double> {};
 
 // 1.5 - 0.5 z + 0.3 z² mm, Fankhauser et al. 2015, of a Kinect v2; the model is within 0.3 mm of
 // it, and rounding to millimetres adds 0.29 mm in squares.
-TEST_P(FlightNoise, IsWhatWasMeasuredOnAKinectV2) {
+TEST_P(FlightNoise, EqualsThePublishedNoiseOfAKinectV2) {
   const double z = GetParam();
   // Without fall-off: as in the middle of the image, where it was measured.
   const auto image =
@@ -27,7 +27,7 @@ TEST_P(FlightNoise, IsWhatWasMeasuredOnAKinectV2) {
 
 INSTANTIATE_TEST_SUITE_P(Distances, FlightNoise, testing::Values(1.0, 2.0, 3.0, 4.0));
 
-TEST(TimeOfFlight, DarkSurfacesAndGrazingOnesAreHoles) {
+TEST(TimeOfFlight, DarkAndGrazingSurfacesHaveNoReading) {
   RenderedImage dark = WallAt(kCamera, 3.0F);
   dark.reflectance = Image<float>(kCamera.width, kCamera.height, 0.02F);
   RenderedImage grazing = WallAt(kCamera, 3.0F);
@@ -37,7 +37,7 @@ TEST(TimeOfFlight, DarkSurfacesAndGrazingOnesAreHoles) {
   EXPECT_LT(ReadShare(SimulateTimeOfFlight(grazing, kCamera, {}, 1)), 0.05);
 }
 
-TEST(TimeOfFlight, PixelsFlyBetweenTheTwoSurfacesOfAnEdge) {
+TEST(TimeOfFlight, EdgesHaveFlyingPixels) {
   const RenderedImage step = StepAt(kCamera, 1.5F, 3.0F);
   const auto count = [&](const TimeOfFlightOptions& options) {
     int flying = 0;
@@ -52,7 +52,7 @@ TEST(TimeOfFlight, PixelsFlyBetweenTheTwoSurfacesOfAnEdge) {
   EXPECT_EQ(count({.spread = 0.0}), 0);
 }
 
-TEST(TimeOfFlight, InnerCornersAreFilledAndOuterOnesAreNot) {
+TEST(TimeOfFlight, ConcaveCornersAreFilledAndConvexOnesAreNot) {
   for (const float sign : {1.0F, -1.0F}) {
     RenderedImage corner = WallAt(kCamera, 2.0F);
     for (int v = 0; v < kCamera.height; ++v) {
@@ -71,7 +71,7 @@ TEST(TimeOfFlight, InnerCornersAreFilledAndOuterOnesAreNot) {
   }
 }
 
-TEST(TimeOfFlight, LightFallsOffFromTheMiddleAndEndsWhereItDoesNotReach) {
+TEST(TimeOfFlight, LightFallsOffFromTheCentreAndEndsOutsideTheField) {
   const RenderedImage wall = WallAt(kCamera, 3.0F);
   const auto image = SimulateTimeOfFlight(wall, kCamera, {.fall_off = 8.0}, 9);
   const Spread corner = SpreadIn(image, 0, 0, 40, 40), middle = SpreadIn(image, 108, 86, 40, 40);
@@ -82,7 +82,7 @@ TEST(TimeOfFlight, LightFallsOffFromTheMiddleAndEndsWhereItDoesNotReach) {
   EXPECT_EQ(lit.depth_mm.at(128, 20), 0);
 }
 
-TEST(TimeOfFlight, TheSameSeedGivesTheSameImageAndAnotherSeedAnother) {
+TEST(TimeOfFlight, DependsOnTheSeedOnly) {
   const RenderedImage step = StepAt(kCamera, 1.5F, 3.0F);
   const auto image = SimulateTimeOfFlight(step, kCamera, {}, 1);
   EXPECT_EQ(image.depth_mm.data, SimulateTimeOfFlight(step, kCamera, {}, 1).depth_mm.data);

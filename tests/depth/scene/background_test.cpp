@@ -27,7 +27,7 @@ double MeasureShare(const std::vector<int>& cells, const std::vector<uint8_t>& m
   return count / static_cast<double>(cells.size());
 }
 
-TEST(Foreground, KnowsWhoCameFromWhatAlwaysStoodThere) {
+TEST(Foreground, DistinguishesArrivalsFromBackground) {
   const std::vector<tests::Box> stool = {{{0.6, -1.0, 2.45}, {0.95, -0.4, 2.8}}};
   const PointGrid before = GridOf(Shot({}, 0, stool));
   BackgroundState state;
@@ -46,7 +46,7 @@ TEST(Foreground, KnowsWhoCameFromWhatAlwaysStoodThere) {
   EXPECT_EQ(MeasureShare(of_stool, foreground), 0.0);  // without noise
 }
 
-TEST(Foreground, SeesSomebodyBeforeWhatIsTooFarToMatter) {
+TEST(Foreground, DetectsAPersonInFrontOfATooFarBackground) {
   CapsuleScene scene;
   scene.planes = {{{0, 1, 0}, 1.0}, {{0, 0, -1}, 7.5}};  // the wall is beyond the 6 m looked at
   const PointGrid before = GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
@@ -80,7 +80,7 @@ bool IsBackground(float z_m, const BackgroundState& state) {
   return count > 0;
 }
 
-TEST(Background, IsWhatNobodyClaimsForTwentyFrames) {
+TEST(Background, LearnsSurfacesUnclaimedForTwentyFrames) {
   BackgroundState state;
   See(3.0F, 19, state);
   EXPECT_FALSE(IsBackground(3.0F, state));
@@ -89,7 +89,7 @@ TEST(Background, IsWhatNobodyClaimsForTwentyFrames) {
   EXPECT_FALSE(IsBackground(2.5F, state));
 }
 
-TEST(Background, IsNobodyWhoStandsStill) {
+TEST(Background, DoesNotLearnAStandingPerson) {
   BackgroundState state;
   See(2.0F, 60, state, true);
   EXPECT_FALSE(IsBackground(2.0F, state));
@@ -97,7 +97,7 @@ TEST(Background, IsNobodyWhoStandsStill) {
 
 // A cupboard moved in front of the wall becomes background after as long as the wall was seen, plus
 // the usual time.
-TEST(Background, IsFurnitureThatWasMovedInTime) {
+TEST(Background, AdaptsToMovedFurniture) {
   BackgroundState state;
   See(3.0F, 30, state);
   See(2.0F, 30, state);
@@ -107,21 +107,21 @@ TEST(Background, IsFurnitureThatWasMovedInTime) {
   EXPECT_FALSE(IsBackground(3.0F, state));
 }
 
-TEST(Background, SomebodyBeforeItDoesNotWearItOut) {
+TEST(Background, OccludedCellsKeepTheirBackground) {
   BackgroundState state;
   See(3.0F, 20, state);
   See(2.0F, 100, state, true);
   EXPECT_TRUE(IsBackground(3.0F, state));
 }
 
-TEST(Background, CellsWithoutAReadingDoNotWearOut) {
+TEST(Background, CellsWithoutAReadingKeepTheirBackground) {
   BackgroundState state;
   See(3.0F, 20, state);
   See(0.0F, 100, state);
   EXPECT_TRUE(IsBackground(3.0F, state));
 }
 
-TEST(Background, StaysHoweverLongItIsSeen) {
+TEST(Background, PersistsIndefinitely) {
   BackgroundState state;
   for (int i = 0; i < 30; ++i) {
     See(3.0F, 20, state);
@@ -129,7 +129,7 @@ TEST(Background, StaysHoweverLongItIsSeen) {
   }
 }
 
-TEST(Background, SaysNothingOfAnImageOfAnotherHeight) {
+TEST(Background, IsUnknownForAnImageOfAnotherHeight) {
   BackgroundState state;
   See(3.0F, 20, state);
   PointGrid lower;
@@ -143,14 +143,14 @@ TEST(Background, SaysNothingOfAnImageOfAnotherHeight) {
 }
 
 // If more than half of the known cells are suddenly farther away, it is not a person who left.
-TEST(Background, IsForgottenWhereTheSensorMoved) {
+TEST(Background, IsResetWhenTheSensorMoves) {
   BackgroundState state;
   See(3.0F, 60, state);
   See(4.0F, 1, state, true);
   EXPECT_EQ(std::count(state.steady.begin(), state.steady.end(), 0), 40 * 30);
 }
 
-TEST(ForegroundArea, RimsDoNotCount) {
+TEST(ForegroundArea, ExcludesRims) {
   const PointGrid grid = GridOf(Shot({}));
   std::vector<uint8_t> foreground(static_cast<size_t>(grid.cells()), 0);
   std::vector<int> cells;
@@ -164,7 +164,7 @@ TEST(ForegroundArea, RimsDoNotCount) {
   EXPECT_GT(MeasureForegroundArea_m2(grid, cells, foreground), 0.0F);
 }
 
-TEST(PointGrid, HeadAndFeetAreAtOnePlaceOverTheFloorOfASensorThatLooksDown) {
+TEST(PointGrid, HeadAndFeetShareAFloorPositionForATiltedSensor) {
   const float tilt_rad = 0.35F;
   PointGrid grid;
   grid.up = {0, std::cos(tilt_rad), -std::sin(tilt_rad)};

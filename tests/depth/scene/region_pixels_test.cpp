@@ -63,7 +63,7 @@ std::vector<int32_t> OneByOne(const DepthFrame& frame, const PointGrid& grid,
 }
 
 // Cells of one, two and four pixels, including cells cut by the image border.
-TEST(RegionPixels, AreThoseThatFollowACellOfTheRegion) {
+TEST(RegionPixels, BelongToTheCellNearestInDepth) {
   for (const auto& [width, height] : {std::pair{160, 120}, {321, 243}, {640, 480}, {653, 481}}) {
     const DepthFrame frame = Ragged(width, height);
     const PointGrid grid = MakePointGrid(frame.view(), frame.camera, 6.0F);
@@ -76,13 +76,13 @@ TEST(RegionPixels, AreThoseThatFollowACellOfTheRegion) {
   }
 }
 
-TEST(RegionPixels, AreNoneOfNoCells) {
+TEST(RegionPixels, AreEmptyForNoCells) {
   const DepthFrame frame = Ragged(160, 120);
   const PointGrid grid = MakePointGrid(frame.view(), frame.camera, 6.0F);
   EXPECT_TRUE(CollectPixels(frame, grid, MakeRegion(grid, {})).empty());
 }
 
-TEST(ConnectedRegions, HaveEachCellOnceAscendingAndTheLargestFirst) {
+TEST(ConnectedRegions, AreSortedBySizeWithAscendingUniqueCells) {
   const DepthFrame frame = Ragged(320, 240);
   const PointGrid grid = MakePointGrid(frame.view(), frame.camera, 6.0F);
   std::vector<uint8_t> taken(static_cast<size_t>(grid.cells()), 0);
@@ -100,7 +100,7 @@ TEST(ConnectedRegions, HaveEachCellOnceAscendingAndTheLargestFirst) {
 }
 
 // Cells in any order give the same region.
-TEST(ConnectedRegions, AreOneWhenUnited) {
+TEST(ConnectedRegions, UniteIntoOne) {
   const DepthFrame frame = Ragged(160, 120);
   const PointGrid grid = MakePointGrid(frame.view(), frame.camera, 6.0F);
   const Region united =

@@ -13,7 +13,7 @@ namespace ossa::depth {
 namespace {
 
 // Cells cover about the same angle in images of any size, so that people have equally many.
-TEST(PointGrid, HasAboutAsManyCellsOfAnyImage) {
+TEST(PointGrid, HasSimilarSizeForAnyImage) {
   for (int width = 120; width <= 1920; ++width) {
     const int cells = width / CellPixels(width);
     EXPECT_GE(cells, 106) << width;
@@ -24,7 +24,7 @@ TEST(PointGrid, HasAboutAsManyCellsOfAnyImage) {
   EXPECT_EQ(CellPixels(640), 4);
 }
 
-TEST(FindFloor, IsTheEmptyRoomsFloor) {
+TEST(FindFloor, FindsTheFloorOfAnEmptyRoom) {
   FloorState state;
   const auto floor = FindFloor(GridOf(Shot({PersonAt(0, 2.5)})), state);
   ASSERT_TRUE(floor.has_value());
@@ -52,7 +52,7 @@ TEST(FindFloor, IsAStripAtTheLowerBorder) {
 // The frame before was taken for a plane that leans against the wall: at the corner it has
 // measurements on both sides, more within the tolerance than the strip of floor has, but some
 // below.
-TEST(FindFloor, IsBelowPlanesAskewBetweenItAndTheWall) {
+TEST(FindFloor, IgnoresObliquePlanesBetweenFloorAndWall) {
   struct Row {
     double tilt_rad, askew_m, wall_m, floor_m;
   };
@@ -107,7 +107,7 @@ TEST(FindFloor, IsRememberedForHalfASecondOutOfView) {
   }
 }
 
-TEST(FindFloor, IsNotInventedFromAWallAlone) {
+TEST(FindFloor, WallAloneGivesNoFloor) {
   CapsuleScene scene;
   scene.planes = {{{0, 0, -1}, 2.0}};
   FloorState state;
@@ -126,7 +126,7 @@ TEST(FlatPieces, FindTheWallWithItsNormalAndArea) {
   EXPECT_NEAR(pieces[0].area_m2, 8.36, 0.08 * 8.36);
 }
 
-TEST(FindRoomSurfaces, TakesTheRoomAndLeavesThePerson) {
+TEST(FindRoomSurfaces, IncludeTheRoomButNotThePerson) {
   const CapsuleRender render = Shot({PersonAt(0, 1.8)});
   const PointGrid grid = GridOf(render);
   FloorState state;
@@ -159,7 +159,7 @@ double RoomShare(const CapsuleRender& with, const CapsuleRender& without) {
   return room / box;
 }
 
-TEST(FindRoomSurfaces, KnowTheFrontOfASofaThatLegsCutInTwo) {
+TEST(FindRoomSurfaces, RecogniseASofaFrontDividedByLegs) {
   // 1.6 m wide and 0.42 m high, 30 cm behind the feet: each half has the area of a person's side.
   const std::vector<CapsulePose> people = {PersonAt(0, 2.4)};
   const std::vector<tests::Box> sofa = {{{-0.8, -1.0, 2.7}, {0.8, -0.58, 3.3}}};
@@ -192,11 +192,11 @@ double TopShare(double half_width_m, double near_m, double far_m) {
   return room / top;
 }
 
-TEST(FindRoomSurfaces, KnowATableSeenAlmostFromItsOwnHeight) {
+TEST(FindRoomSurfaces, RecogniseATableSeenFromItsOwnHeight) {
   EXPECT_GT(TopShare(0.6, 1.4, 2.8), 0.95);
 }
 
-TEST(FindRoomSurfaces, TakeNothingAsNarrowAsALapForATable) {
+TEST(FindRoomSurfaces, LapIsNotATable) {
   EXPECT_LT(TopShare(0.1, 0.9, 2.9), 0.1);  // larger than the smallest table
 }
 
@@ -213,7 +213,7 @@ TEST_F(SceneOverTime, IsFreshAtFirstAndAfterAGap) {
   EXPECT_TRUE(Measure(Shot({PersonAt(0, 2.5)}, 40)).fresh);
 }
 
-TEST_F(SceneOverTime, IsFreshInAnotherRecordingAndNotWhereTheClockRunsBackALittle) {
+TEST_F(SceneOverTime, IsFreshInAnotherRecordingButNotAfterClockJitter) {
   CapsuleRender render = Shot({PersonAt(0, 2.5)}, 30);
   Measure(render);
   render.frame.time_s -= 0.004;
@@ -222,7 +222,7 @@ TEST_F(SceneOverTime, IsFreshInAnotherRecordingAndNotWhereTheClockRunsBackALittl
   EXPECT_TRUE(Measure(render).fresh);
 }
 
-TEST_F(SceneOverTime, IsAnotherWhereMostOfItIsElsewhereOrTheImageIsOfAnotherSize) {
+TEST_F(SceneOverTime, ChangesIfMostCellsDifferOrTheImageSizeChanges) {
   EXPECT_TRUE(Measure(Shot({PersonAt(0, 2.5)}, 0)).changed);
   EXPECT_FALSE(Measure(Shot({PersonAt(0.3, 2.5)}, 1)).changed);
   CapsuleScene other;

@@ -34,7 +34,7 @@ double OccludedShare(const CapsuleRender& render) {
   return MeasureOccludedShare(grid, FindFloor(grid, state), RegionOf(render, grid, true));
 }
 
-TEST(OccludedShare, IsOfTheSilhouetteBesideWhatIsNearer) {
+TEST(OccludedShare, CountsTheSilhouetteNextToNearerSurfaces) {
   EXPECT_LT(OccludedShare(Shot({SomebodyAt(2.7)})), 0.03);
   EXPECT_LT(OccludedShare(Shot({PersonAt(1.2, 2.2)})), 0.03);  // cut by the image's border
   // The seat is a fifth of the silhouette of head and shoulders.

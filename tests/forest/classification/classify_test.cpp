@@ -56,7 +56,7 @@ TEST(Classify, RowsOfProbabilitiesSumToOne) {
   }
 }
 
-TEST(Classify, LetsFewPixelsSpeakForTheirNeighbours) {
+TEST(Classify, SharesSamplesBetweenNeighbours) {
   const BallFigures figures(20, 12, 256);  // a pixel is about 8 mm
   int64_t same = 0;
   int64_t all = 0;
@@ -74,7 +74,7 @@ TEST(Classify, LetsFewPixelsSpeakForTheirNeighbours) {
   EXPECT_GT(static_cast<double>(same) / static_cast<double>(all), 0.97);
 }
 
-TEST(ForRows, GivesEachRowThatHoldsAnythingOnce) {
+TEST(ForRows, VisitsEachNonEmptyRowOnce) {
   const std::vector<int32_t> place = {3, 4, 9, 20, 29, 30};  // in rows of ten
   std::vector<std::array<size_t, 3>> rows;
   ForRows(place, 10, [&](int32_t row, size_t first, size_t last) {
@@ -83,7 +83,7 @@ TEST(ForRows, GivesEachRowThatHoldsAnythingOnce) {
   EXPECT_EQ(rows, (std::vector<std::array<size_t, 3>>{{0, 0, 3}, {2, 3, 5}, {3, 5, 6}}));
 }
 
-TEST(ForRows, TheLastRowOfTheLargestBoxOverflowsNothing) {
+TEST(ForRows, LargestBoxDoesNotOverflow) {
   const std::vector<int32_t> place = {0x7fff'0000, 0x7fff'ffff};
   ForRows(place, kPositionRow, [](int32_t row, size_t first, size_t last) {
     EXPECT_EQ(row, 0x7fff);
@@ -104,7 +104,7 @@ ObjectImage CutFigure(std::vector<int32_t>* position) {
 }
 
 // The vector path processes 128 pixels at a time, eight per vector: all remainders must work.
-TEST(Walk, AnyNumberOfPixelsEndsInTheLeavesOfTheScalarPath) {
+TEST(Walk, EqualsTheScalarPathForAnyNumberOfPixels) {
   std::vector<int32_t> position;
   const ObjectImage cut = CutFigure(&position);
   const LinedTree tree = LayOutInLines(BallModel().data().trees.front().nodes);
@@ -162,7 +162,7 @@ int32_t LeafOf(const std::vector<Node>& nodes, const ObjectImage& image, int x, 
   return node->leaf();
 }
 
-TEST(LayOutInLines, EveryWalkEndsInTheLeafItEndedInBefore) {
+TEST(LayOutInLines, KeepsTheLeafOfEveryWalk) {
   std::vector<int32_t> position;
   const ObjectImage cut = CutFigure(&position);
   for (int levels = 1; levels <= 11; ++levels) {
@@ -181,7 +181,7 @@ TEST(LayOutInLines, EveryWalkEndsInTheLeafItEndedInBefore) {
   }
 }
 
-TEST(LayOutInLines, EveryLeafHasANumberOfItsOwn) {
+TEST(LayOutInLines, LeavesHaveUniqueNumbers) {
   const std::vector<Node> nodes = RandomTree(5, 12, 6, 1);
   std::vector<int32_t> leaf = LayOutInLines(nodes).leaf;
   std::sort(leaf.begin(), leaf.end());
@@ -189,11 +189,11 @@ TEST(LayOutInLines, EveryLeafHasANumberOfItsOwn) {
   for (size_t i = 0; i < leaf.size(); ++i) EXPECT_EQ(leaf[i], static_cast<int32_t>(i));
 }
 
-TEST(LayOutInLines, AFullTreeOfSixLevelsIsNineLines) {
+TEST(LayOutInLines, FullTreeOfSixLevelsHasNineLines) {
   EXPECT_EQ(LayOutInLines(RandomTree(1, 6, 1 << 30, 1)).lines.size(), 9U);
 }
 
-TEST(LayOutInLines, OffsetsTooManyForItsStepsAreRounded) {
+TEST(LayOutInLines, RoundsTooManyDistinctOffsets) {
   Node inner;
   inner.u = {32767, -32768};
   inner.v = {1000, 7};
@@ -211,7 +211,7 @@ TEST(LayOutInLines, OffsetsTooManyForItsStepsAreRounded) {
   EXPECT_EQ(node.threshold_mm(), -1234);
 }
 
-TEST(LayOutInLines, ATreeOfOneLeafIsOneLine) {
+TEST(LayOutInLines, TreeOfOneLeafHasOneLine) {
   std::vector<int32_t> position;
   const ObjectImage cut = CutFigure(&position);
   const LinedTree tree = LayOutInLines({Node{}});
@@ -236,7 +236,7 @@ ObjectImage SteppedBoard(std::vector<int32_t>* position) {
   return image;
 }
 
-TEST(ChooseSparse, OnePixelOfFourWalksAndNoneSpeaksAcrossAnEdge) {
+TEST(ChooseSparse, SamplesOnePixelOfFourAndNeverAcrossAnEdge) {
   std::vector<int32_t> position;
   const ObjectImage image = SteppedBoard(&position);
   const SparsePixels sparse = ChooseSparse(image, position, 2.0);
@@ -250,7 +250,7 @@ TEST(ChooseSparse, OnePixelOfFourWalksAndNoneSpeaksAcrossAnEdge) {
   }
 }
 
-TEST(ChooseSparse, APixelAloneOnItsSurfaceIsASampleOffTheGrid) {
+TEST(ChooseSparse, IsolatedPixelIsASampleOffTheGrid) {
   std::vector<int32_t> position;
   ObjectImage image = SteppedBoard(&position);
   image.depth_mm[image.At(0, 0)] = 900;  // the square's sample is another pixel
@@ -260,7 +260,7 @@ TEST(ChooseSparse, APixelAloneOnItsSurfaceIsASampleOffTheGrid) {
   EXPECT_EQ(sparse.position[sample], position[0]);
 }
 
-TEST(ChooseSparse, ACellWithoutItsMiddleHasItsFirstPixelAsSample) {
+TEST(ChooseSparse, CellWithoutItsCentreUsesItsFirstPixel) {
   std::vector<int32_t> position;
   ObjectImage image = SteppedBoard(&position);
   std::erase(position, 1 << 16 | 1);  // the middle of the first cell of three by three
@@ -270,7 +270,7 @@ TEST(ChooseSparse, ACellWithoutItsMiddleHasItsFirstPixelAsSample) {
   EXPECT_EQ(sparse.position.at(1), 1 << 16 | 4);
 }
 
-TEST(ChooseSparse, EveryPixelWalksAtStepOne) {
+TEST(ChooseSparse, StepOneSamplesEveryPixel) {
   std::vector<int32_t> position;
   const ObjectImage image = SteppedBoard(&position);
   const SparsePixels sparse = ChooseSparse(image, position, 1.0);
@@ -283,7 +283,7 @@ TEST(ChooseSparse, EveryPixelWalksAtStepOne) {
 
 // Two samples in a row, three pixels apart, the left one of class 1 and the right one of class 2:
 // the border is halfway between them.
-TEST(LabelPixels, TheBorderOfTwoLabelsLiesBetweenTheirSamples) {
+TEST(LabelPixels, BorderOfTwoLabelsIsBetweenTheirSamples) {
   ObjectImage image;
   image.width = 6;
   image.height = 1;

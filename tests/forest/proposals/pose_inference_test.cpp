@@ -53,7 +53,7 @@ TEST(PoseInference, PrefersTheModeThatFitsTheOtherTargets) {
   EXPECT_GT(marginals.target[2].weight[1], 0.9);
 }
 
-TEST(PoseInference, ModesThatStandApartStayCandidates) {
+TEST(PoseInference, DistantModesStayCandidates) {
   const std::vector<float> posterior = {0.5F, 0.5F};
   const TargetModes modes = {
       {ModeAt(1, 0, 3)}, {ModeAt(1, 1, 3)}, {ModeAt(2, 0, 3), ModeAt(1, 2, 3)}};
@@ -67,7 +67,7 @@ TEST(PoseInference, ModesThatStandApartStayCandidates) {
   EXPECT_EQ(candidates[1].mode, 0);
 }
 
-TEST(LearnPosePriors, FindsHowTheBallsLieToEachOther) {
+TEST(LearnPosePriors, LearnsRelativePositions) {
   const BallFigures figures(400, 9);
   const ForestModel model = LearnPosePriors(BallModel(), figures, 400, 1);
   ASSERT_EQ(model.data().pose_priors.size(), 2U);
@@ -86,7 +86,7 @@ TEST(LearnPosePriors, FindsHowTheBallsLieToEachOther) {
   }
 }
 
-TEST(LearnPosePriors, LeavesAModelAloneWhenImagesAreTooFew) {
+TEST(LearnPosePriors, KeepsTheModelIfThereAreTooFewImages) {
   EXPECT_TRUE(LearnPosePriors(BallModel(), BallFigures(4, 9), 4, 1).data().pose_priors.empty());
 }
 
@@ -102,7 +102,7 @@ TEST(ForestModel, RefusesPosePriorsThatDoNotFitItsTargets) {
   EXPECT_THROW(ForestModel(std::move(data), "body.ossa"), InputError);
 }
 
-TEST(ForestModelFile, PosePriorsComeBackAsTheyWere) {
+TEST(ForestModelFile, RoundTripKeepsThePosePriors) {
   const std::vector<char> bytes = test::ToBytes(Column(0.5));
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
   EXPECT_EQ(test::ToBytes(read), bytes);
@@ -151,7 +151,7 @@ Prediction PredictByConditioning(const PosePrior& prior, const std::vector<Site>
   return prediction;
 }
 
-TEST(FactorModel, PredictsATargetByAllOthersAsConditioningDoes) {
+TEST(FactorModel, PredictionEqualsGaussianConditioning) {
   const std::vector<Site> sites = {{1e-3, {0.1, 0.2, 2.0}},
                                    {4e-3, {0.3, 0.1, 2.1}},
                                    {},

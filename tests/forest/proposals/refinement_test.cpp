@@ -43,13 +43,13 @@ Perceptron Constant(const Eigen::Vector3f& steps, float logit) {
   return refinement;
 }
 
-TEST(JointFeatures, SaysAsManyNumbersAsItPromises) {
+TEST(JointFeatures, HasTheDocumentedSize) {
   const JointFeatures features = ComputeFigureFeatures(BallFigures(4, 1).Read(1));
   EXPECT_EQ(static_cast<size_t>(features.value.size()), JointFeatureCount(3, 6, 2));
   for (const float value : features.value) EXPECT_TRUE(std::isfinite(value));
 }
 
-TEST(Refine, MovesPlacesInAxesAlongTheSight) {
+TEST(Refine, MovesPositionsInAxesAlongTheRay) {
   const JointFeatures features = ComputeFigureFeatures(BallFigures(4, 1).Read(1));
   const auto places = Refine(RoundedPerceptron(Constant({0.0F, 0.0F, 1.0F}, 0.0F)), features);
   const Eigen::Vector3d away = OffsetScale().step_m * features.frame.middle_m.normalized();
@@ -60,7 +60,7 @@ TEST(Refine, MovesPlacesInAxesAlongTheSight) {
   }
 }
 
-TEST(Propose, GivesTheRefinedPlaceItsConfidence) {
+TEST(Propose, RefinedPositionHasItsConfidence) {
   ForestData data = Arranged().data();
   data.refinement = Constant({0.5F, 0.0F, 0.0F}, std::log(3.0F));
   const ForestModel model{std::move(data)};
@@ -101,7 +101,7 @@ double Error_m(const ForestModel& model) {
   return std::sqrt(sum / static_cast<double>(3 * unseen.size()));
 }
 
-TEST(LearnRefinement, BringsPlacesNearerToTheTruth) {
+TEST(LearnRefinement, ReducesTheErrorOfPositions) {
   const ForestModel refined = LearnRefinement(Arranged(), BallFigures(600, 21), Quick(0));
   EXPECT_LT(Error_m(refined), 0.9 * Error_m(Arranged()));
 }
@@ -117,13 +117,13 @@ TEST(LearnRefinement, RefusesTooFewImagesAndAModelWithoutPosePriors) {
   EXPECT_THROW(LearnRefinement(BallModel(), BallFigures(200, 21), Quick(1)), InputError);
 }
 
-TEST(LearnRefinement, StopsWhenTold) {
+TEST(LearnRefinement, StopsOnRequest) {
   RefinementOptions options = Quick(1);
   options.stop = [] { return true; };
   EXPECT_THROW(LearnRefinement(Arranged(), BallFigures(200, 21), options), TrainInterrupted);
 }
 
-TEST(ForestModelFile, ARefinementComesBackAsItWas) {
+TEST(ForestModelFile, RoundTripKeepsTheRefinement) {
   ForestData data = Arranged().data();
   data.refinement = Constant({0.5F, 0.25F, 0.0F}, 1.0F);
   const ForestModel model{std::move(data)};

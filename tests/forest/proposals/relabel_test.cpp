@@ -41,7 +41,7 @@ Labels LabelsOf(const ForestModel& model, const TrainingImage& image) {
   return labels;
 }
 
-TEST(Relabel, ErrsLessThanTheTreesAlone) {
+TEST(Relabel, IsMoreAccurateThanTheTreesAlone) {
   const BallFigures unseen(60, 77);
   int64_t first_wrong = 0;
   int64_t second_wrong = 0;
@@ -55,12 +55,12 @@ TEST(Relabel, ErrsLessThanTheTreesAlone) {
   EXPECT_LT(second_wrong, first_wrong);
 }
 
-TEST(Relabel, LeavesLabelsAloneWhereNoneWasLearned) {
+TEST(Relabel, KeepsLabelsWithoutARelabelling) {
   const Labels labels = LabelsOf(Arranged(), BallFigures(4, 1).Read(2));
   EXPECT_EQ(labels.first, labels.second);
 }
 
-TEST(Relabel, BelievesWeightsThatAreSure) {
+TEST(Relabel, FollowsConfidentWeights) {
   ForestData data = WithPrior().data();
   data.relabelling.weight.assign(data.relabelling.weight.size(), 0.0F);
   data.relabelling.bias.assign(data.relabelling.bias.size(), 0.0F);
@@ -77,7 +77,7 @@ TEST(Relabel, GivesNothingForNoPixels) {
           .empty());
 }
 
-TEST(RadialBasis, IsTheSameBitByBitOnEveryPath) {
+TEST(RadialBasis, IsBitIdenticalOnEveryInstructionSet) {
   std::vector<std::vector<Proposal>> proposals(11);
   for (size_t t = 1; t < proposals.size(); ++t) {
     const double d = 0.1 * static_cast<double>(t);
@@ -107,19 +107,19 @@ TEST(LearnRelabelling, GivesTheSameBytesForAnyNumberOfThreads) {
             test::ToBytes(LearnRelabelling(Arranged(), figures, 1, 3)));
 }
 
-TEST(LearnRelabelling, RefusesImagesThatShowNothing) {
+TEST(LearnRelabelling, RefusesImagesWithoutObjects) {
   EXPECT_THROW(LearnRelabelling(Arranged(), BallFigures(0, 1), 1, 1), InputError);
 }
 
 // Such labels would index beyond the classes.
-TEST(LearnRelabelling, RefusesLabelsThatTheModelHasNot) {
+TEST(LearnRelabelling, RefusesLabelsThatTheModelLacks) {
   const test::ChangedFigures others([](TrainingImage& image) {
     for (uint8_t& label : image.label) label = label == 1 ? 200 : label;
   });
   EXPECT_THROW(LearnRelabelling(Arranged(), others, 1, 1), InputError);
 }
 
-TEST(ForestModelFile, ARelabellingComesBackAsItWas) {
+TEST(ForestModelFile, RoundTripKeepsTheRelabelling) {
   const std::vector<char> bytes = test::ToBytes(WithPrior());
   const ForestModel read = ReadForestModel(std::as_bytes(std::span(bytes)), "body.ossa");
   EXPECT_EQ(read.data().relabelling.weight, WithPrior().data().relabelling.weight);

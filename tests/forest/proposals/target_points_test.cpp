@@ -45,7 +45,7 @@ ProposalTarget Target(float vote_radius_m) {
   return target;
 }
 
-TEST(GatherPoints, AddsUpTheVotesThatAreNotTooLong) {
+TEST(GatherPoints, SumsVotesWithinTheRadius) {
   const Evidence evidence = SomeEvidence();
   float total = 0.0F;
   for (size_t i = 0; i < kSamples - 1; ++i) {
@@ -63,7 +63,7 @@ TEST(GatherPoints, AddsUpTheVotesThatAreNotTooLong) {
   EXPECT_NEAR(points.points.at(0).z(), 2.0F, 1e-6F);
 }
 
-TEST(GatherPoints, HearsAVoteAsLongAsTheRadius) {
+TEST(GatherPoints, AcceptsAVoteAsLongAsTheRadius) {
   Evidence evidence = SomeEvidence();
   for (Vote& vote : evidence.votes) vote = {{0, 0, 0}, Vote::kNone};
   evidence.votes[4] = {{0, 0, 70}, 2};
@@ -72,11 +72,11 @@ TEST(GatherPoints, HearsAVoteAsLongAsTheRadius) {
   EXPECT_EQ(GatherPoints(evidence, Target(std::nextafter(length_m, 0.0F)), 0).points.size(), 0U);
 }
 
-TEST(GatherPoints, HearsNoVotesWithinANegativeRadius) {
+TEST(GatherPoints, NegativeRadiusAcceptsNoVotes) {
   EXPECT_EQ(GatherPoints(SomeEvidence(), Target(-1.0F), 0).points.size(), 0U);
 }
 
-TEST(GatherPoints, TakesSurfaceOfItsClassesAndPushesItIntoTheBody) {
+TEST(GatherPoints, UsesSurfacesOfItsClassesPushedIntoTheBody) {
   ProposalTarget target = Target(0.0F);
   target.class_weight = 0.5F;
   target.probability_threshold = 0.5F;

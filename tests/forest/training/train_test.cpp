@@ -39,12 +39,12 @@ double Accuracy(const ForestModel& model) {
   return static_cast<double>(right) / static_cast<double>(all);
 }
 
-TEST(Train, LearnsFiguresItHasNotSeen) {
+TEST(Train, GeneralisesToUnseenFigures) {
   // Balls meet in edges of a pixel's width whose owner noise decides: about 3 % of all pixels.
   EXPECT_GT(Accuracy(BallModel()), 0.93);
 }
 
-TEST(Train, TellsFrontFromBackByTheWholeFigure) {
+TEST(Train, DistinguishesFrontAndBackByTheWholeFigure) {
   const BallFigures unseen(60, 77);
   int right = 0;
   for (size_t i = 0; i < unseen.size(); ++i) {
@@ -83,7 +83,7 @@ TEST(Train, ProposesCentresOfBalls) {
   EXPECT_GE(near, 50);  // of 60: near nine in ten, less the noise of a small draw
 }
 
-TEST(LearnProposals, MakesConfidencesThatSortRightFromWrong) {
+TEST(LearnProposals, ConfidencesSeparateRightFromWrong) {
   const ForestModel model = LearnProposals(BallModel(), BallFigures(100, 5), 100, 0);
   const BallFigures unseen(40, 66);
   double right_sum = 0, wrong_sum = 0;
@@ -116,7 +116,7 @@ TEST(LearnProposals, RefusesTruthOfAnotherVocabulary) {
 }
 
 // Nothing could be learned from them.
-TEST(LearnProposals, RefusesImagesThatShowNothing) {
+TEST(LearnProposals, RefusesImagesWithoutObjects) {
   const test::ChangedFigures nobody([](TrainingImage& i) { i.label.assign(i.label.size(), 0); });
   EXPECT_THROW(LearnProposals(BallModel(), nobody, 20, 1), InputError);
 }
@@ -260,7 +260,7 @@ TEST(Train, NamesALabelThatTheVocabularyLacks) {
   }
 }
 
-TEST(Train, AClassNoImageShowsIsLegal) {
+TEST(Train, AcceptsAClassWithoutImages) {
   TrainingVocabulary vocabulary = BallVocabulary();
   vocabulary.class_names.emplace_back("tail");
   EXPECT_NO_THROW(Train(BallFigures(20, 1), vocabulary, QuickOptions()));

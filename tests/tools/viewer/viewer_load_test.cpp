@@ -109,7 +109,7 @@ TEST(Viewer, ServesOtherPagesWhileOneReadsNothing) {
 }
 
 // Frames come from one thread while requests come from others.
-TEST(Viewer, AcceptsMomentsWhileItAnswersRequests) {
+TEST(Viewer, AcceptsFramesWhileItAnswersRequests) {
   Viewer viewer(AnyPort(true));
   std::atomic<bool> done = false;
   std::thread asking([&] {

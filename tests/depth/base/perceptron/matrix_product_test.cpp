@@ -18,7 +18,7 @@ RowMatrix Filled(Eigen::Index rows, Eigen::Index columns, float first) {
 
 class MultiplySizes : public testing::TestWithParam<std::array<int, 3>> {};
 
-TEST_P(MultiplySizes, IsTheSumInItsOrderBitByBit) {
+TEST_P(MultiplySizes, EqualsTheOrderedSumBitByBit) {
   const auto [rows, inner, columns] = GetParam();
   const RowMatrix a = Filled(rows, inner, 0.1F);
   const RowMatrix b = Filled(inner, columns, 2.0F);

@@ -10,7 +10,7 @@
 namespace ossa {
 namespace {
 
-TEST(WeightBytes, AreTheSameOfWeightsThatWereBytesOnce) {
+TEST(WeightBytes, QuantisingTwiceEqualsOnce) {
   std::srand(3);
   RowMatrix weight = RowMatrix::Random(30, 40);
   weight.row(4) *= 1e-3F;
@@ -25,7 +25,7 @@ TEST(WeightBytes, AreTheSameOfWeightsThatWereBytesOnce) {
   }
 }
 
-TEST(Perceptron, RectifiesEveryLayerButTheLast) {
+TEST(Perceptron, RectifiesAllLayersExceptTheLast) {
   Perceptron perceptron = test::SilentPerceptron({1, 2, 1, 1});
   perceptron.input_mean << 1.0F;
   perceptron.input_scale << 2.0F;
@@ -40,7 +40,7 @@ TEST(Perceptron, RectifiesEveryLayerButTheLast) {
 }
 
 // Results for an example must not depend on the others in its batch.
-TEST(Perceptron, RunsRowsTogetherAsOneByOne) {
+TEST(Perceptron, BatchEqualsSingleRows) {
   std::srand(5);
   const Perceptron perceptron = test::RandomPerceptron({40, 70, 9});
   const RowMatrix inputs = RowMatrix::Random(8, 40);

@@ -24,13 +24,13 @@ TEST(ViewFrame, HasItsDepthAlongTheRayAndIsLevel) {
   EXPECT_NEAR(r(0, 1), 0.0, 1e-12);
 }
 
-TEST(ViewFrame, IsNoneBehindAboveOrBelowTheCamera) {
+TEST(ViewFrame, IsUndefinedBehindAboveAndBelowTheCamera) {
   EXPECT_FALSE(MakeViewFrame({0.0, 0.0, -2.0}));
   EXPECT_FALSE(MakeViewFrame({0.0, 2.0, 1e-9}));
   EXPECT_FALSE(MakeViewFrame({0.0, -2.0, 1e-9}));
 }
 
-TEST(ComputeMiddle, WeighsPointsButNoneByNothing) {
+TEST(ComputeMiddle, WeighsPointsWithAMinimumWeight) {
   const std::array<Eigen::Vector3d, 2> points_m = {Eigen::Vector3d(0.0, 0.0, 1.0),
                                                    Eigen::Vector3d(1.0, 0.0, 1.0)};
   const std::array<double, 2> weights = {0.95, 0.0};
@@ -57,7 +57,7 @@ void ExpectMovedTo(double tolerance_m) {
   for (size_t p = 0; p < 2; ++p) EXPECT_LT((points_m[p] - wanted_m[p]).norm(), tolerance_m);
 }
 
-TEST(Regress, MovesPointsToWhereTheNetworkSaysThatTheyAre) {
+TEST(Regress, MovesPointsByTheNetworksOutputs) {
   ExpectMovedTo<Perceptron>(1e-7);
   ExpectMovedTo<QuantisedPerceptron>(1e-7);
 }

@@ -59,7 +59,7 @@ void ExpectDefinition(const Convolution& layer, const FeatureMap& map) {
   }
 }
 
-TEST(QuantisedConvolution, IsItsDefinitionAtBordersAndAtAnyStride) {
+TEST(QuantisedConvolution, EqualsTheDefinitionAtBordersAndForAnyStride) {
   struct Case {
     int size, stride, side;
     Eigen::Index inputs, outputs;
@@ -74,7 +74,7 @@ TEST(QuantisedConvolution, IsItsDefinitionAtBordersAndAtAnyStride) {
 
 // Equal windows share one result: an empty map except for one cell, and the padding, which differs
 // from empty cells.
-TEST(QuantisedConvolution, IsItsDefinitionWhereMostCellsAreAlike) {
+TEST(QuantisedConvolution, EqualsTheDefinitionForUniformMaps) {
   for (const int stride : {1, 2}) {
     const Convolution layer = RandomLayer(3, stride, 4, 8);
     FeatureMap map = RandomMap(12, 4);
@@ -86,7 +86,7 @@ TEST(QuantisedConvolution, IsItsDefinitionWhereMostCellsAreAlike) {
 }
 
 // The largest possible sums: with one bit less they would overflow.
-TEST(QuantisedConvolution, ManyLoudFeaturesAddUp) {
+TEST(QuantisedConvolution, SumsOfLargeFeaturesDoNotOverflow) {
   constexpr Eigen::Index kInputs = 4000;
   const Convolution layer{1, 1, RowMatrix::Ones(kInputs, 1), Eigen::RowVectorXf::Zero(1)};
   for (const float each : {5.0F, -5.0F}) {
@@ -97,7 +97,7 @@ TEST(QuantisedConvolution, ManyLoudFeaturesAddUp) {
   }
 }
 
-TEST(QuantisedConvolution, OfNothingIsTheBias) {
+TEST(QuantisedConvolution, ZeroMapGivesTheBias) {
   const Convolution layer = RandomLayer(3, 1, 2, 5);
   const FeatureMap out = QuantisedConvolution(layer).Run({4, RowMatrix::Zero(16, 2)});
   for (Eigen::Index cell = 0; cell < 16; ++cell) EXPECT_EQ(out.cells.row(cell), layer.bias);
@@ -106,7 +106,7 @@ TEST(QuantisedConvolution, OfNothingIsTheBias) {
   EXPECT_EQ(QuantisedConvolution(silent).Run(RandomMap(4, 2)).cells.row(3), layer.bias);
 }
 
-TEST(QuantisedConvolution, IsNotFiniteWhereAFeatureIsNot) {
+TEST(QuantisedConvolution, PropagatesNonFiniteFeatures) {
   const QuantisedConvolution layer(RandomLayer(3, 1, 2, 5));
   for (const float odd :
        {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
@@ -118,7 +118,7 @@ TEST(QuantisedConvolution, IsNotFiniteWhereAFeatureIsNot) {
 }
 
 // One to thirteen windows: all remainders of the six and two windows that are summed together.
-TEST(WindowSums, AreTheSameOneByOne) {
+TEST(WindowSums, EqualSumsOneByOne) {
   std::mt19937 draw(5);
   std::uniform_int_distribution<int> number(-4000, 4000);
   const auto drawn = [&] { return static_cast<int16_t>(number(draw)); };

@@ -20,7 +20,7 @@ void ExpectAboutEqual(const Eigen::RowVectorXf& said, const Eigen::RowVectorXf& 
   EXPECT_LT((said - wanted).norm(), 1e-4F * (1.0F + wanted.norm()));
 }
 
-TEST(QuantisedPerceptron, SaysWhatThePerceptronSays) {
+TEST(QuantisedPerceptron, EqualsThePerceptron) {
   std::srand(7);  // Eigen draws from it
   for (const auto& sizes : {std::vector<Eigen::Index>{11, 3}, {11, 7, 3}, {11, 103, 103, 3}}) {
     const Perceptron perceptron = RandomPerceptron(sizes);
@@ -36,7 +36,7 @@ TEST(QuantisedPerceptron, SaysWhatThePerceptronSays) {
 }
 
 // 103 and 130 units: more than three and four cache lines of weights.
-TEST(QuantisedPerceptron, OnesWhoseWeightsLieTogetherSayWhatEachSaysAlone) {
+TEST(QuantisedPerceptron, PackedPerceptronsEqualSeparateOnes) {
   std::srand(8);
   const std::vector<Perceptron> perceptrons = {RandomPerceptron({40, 103, 103, 3}),
                                                RandomPerceptron({5, 3}),
@@ -55,7 +55,7 @@ TEST(QuantisedPerceptron, OnesWhoseWeightsLieTogetherSayWhatEachSaysAlone) {
 
 // Twice as many inputs as can be at their maximum with one sign: without limits the sum would
 // overflow.
-TEST(QuantisedPerceptron, ManyLoudInputsAddUp) {
+TEST(QuantisedPerceptron, SumsOfLargeInputsDoNotOverflow) {
   constexpr Eigen::Index kInputs = 1100;
   Perceptron perceptron = test::SilentPerceptron({kInputs, 1});
   perceptron.layers[0].weight = RoundToBytes(RowMatrix::Ones(kInputs, 1)).ToWeights();
@@ -66,7 +66,7 @@ TEST(QuantisedPerceptron, ManyLoudInputsAddUp) {
 }
 
 // An input a thousandth as large as another still counts.
-TEST(QuantisedPerceptron, QuietInputsCountBesideALoudOne) {
+TEST(QuantisedPerceptron, SmallInputsCountBesideALargeOne) {
   Perceptron perceptron = test::SilentPerceptron({2, 2});
   perceptron.layers[0].weight = RoundToBytes(RowMatrix::Identity(2, 2)).ToWeights();
   const Eigen::RowVector2f some(4.0F, 0.004F);
@@ -117,7 +117,7 @@ void ExpectTheSameSums() {
   EXPECT_EQ(sums.back()[kUnit], wanted);
 }
 
-TEST(WeightSums, AreTheSameOneByOne) {
+TEST(WeightSums, EqualSumsOneByOne) {
   ExpectTheSameSums<1>();
   ExpectTheSameSums<2>();
 }

@@ -10,7 +10,7 @@
 namespace ossa {
 namespace {
 
-TEST(RoundedPerceptron, SaysWhatThePerceptronSays) {
+TEST(RoundedPerceptron, EqualsThePerceptron) {
   std::srand(7);  // Eigen draws from it
   for (const auto& sizes : {std::vector<Eigen::Index>{11, 3}, {11, 7, 3}, {11, 103, 80, 3}}) {
     const Perceptron perceptron = test::RandomPerceptron(sizes);

@@ -20,7 +20,7 @@ PerceptronExamples Bends() {
   return examples;
 }
 
-TEST(TrainPerceptron, OfTwoHiddenLayersBends) {
+TEST(TrainPerceptron, TwoHiddenLayersFitANonlinearFunction) {
   PerceptronExamples examples = Bends();
   PerceptronTraining options;
   options.hidden = {32, 16};
@@ -36,7 +36,7 @@ TEST(TrainPerceptron, OfTwoHiddenLayersBends) {
   }
 }
 
-TEST(TrainPerceptron, WhatIsNotKnownPullsNowhere) {
+TEST(TrainPerceptron, UnknownTargetsHaveNoGradient) {
   const auto gradient = PointDistanceGradient(0.01F);
   RowMatrix out = RowMatrix::Zero(2, 6), wanted = out;
   wanted(0, 1) = std::numeric_limits<float>::quiet_NaN();
