@@ -67,7 +67,7 @@ def flag(name: str, value: Any) -> bool:
 
 
 def function(name: str, value: Any) -> Any:
-    """What can be called."""
+    """A callable."""
     if not callable(value):
         raise refuse(name, "a function", value)
     return value

@@ -1,7 +1,7 @@
 """Results of the tracker for an image: ossa.Frame, its bodies, and their fits.
 
-All of them are equal by identity (eq=False): arrays have no one truth of being equal, and `body in
-frame.bodies` must not fail for it.
+They compare by identity (eq=False): comparing arrays gives no single bool, and `body in
+frame.bodies` must work.
 """
 
 from __future__ import annotations
@@ -220,13 +220,13 @@ class Thing:
     Attributes
     ----------
     name : str
-        As the scene file calls it.
+        Its name in the scene file.
     position, velocity_m_s : float64 [3]
-        Of its middle; metres a second.
+        Of its centre; metres, metres per second.
     orientation : float64 [4]
         Quaternion w x y z, camera from thing.
     held_by : tuple of int
-        Body.id of who holds it.
+        Body.id of each person who holds it.
     """
 
     name: str
@@ -249,12 +249,12 @@ class Frame:
     parts : uint8 [H, W] or None
         Label of each pixel, ossa.PARTS; None with Tracker(parts=False).
     probabilities : float32 [H, W, C] or None
-        How likely the pixel shows each part, by the trees alone; with Tracker(probabilities=True).
-        Of the shipped forest c is the index in ossa.PARTS; 0 where nobody is.
+        Probability of each part at each pixel, by the trees alone; with Tracker(probabilities=True).
+        Of the shipped forest c is the index in ossa.PARTS; 0 outside people.
     floor : float64 [4] or None
         a b c d of the floor a x + b y + c z + d = 0, metres, (a, b, c) of length 1 and upwards.
     tilt_down_rad : float or None
-        How far the sensor looks down, by the floor.
+        Downward tilt of the sensor, from the floor; negative: it looks up.
     time_s : float
         Seconds.
     index : int

@@ -126,8 +126,8 @@ def takes_method_options(function: _Function) -> _Function:
 
 
 def checked(method: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Those options that are not None. One that the method does not read is refused: what comes out
-    would be without what was asked for."""
+    """Those options that are not None. One that the method does not read is refused, because it
+    would have no effect."""
     chosen = {}
     for name, value in given.items():
         if name not in _OPTIONS:

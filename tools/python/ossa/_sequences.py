@@ -41,7 +41,7 @@ def _states_option(states: Any, rows: int) -> npt.NDArray[np.int8]:
 class Sequence:
     """A recording of skeletons: R rows, one for each body of each frame, in order of time.
 
-    Of a recording of one person R is its number of frames F. A frame without bodies is a row of its
+    For a recording of one person, R is its number of frames F. A frame without bodies is a row of its
     own, with id -1 and NaN joints. Index j of an array of joints is ossa.JOINTS[j].
 
     Parameters (each is also an attribute)
@@ -51,7 +51,7 @@ class Sequence:
     joints : float64 [R, 20, 3]
         Camera space (x to the sensor's left, y up, z forward), metres; NaN: an absent joint.
     states : str [R, 20], optional
-        "tracked", "inferred", "not_tracked", or "" where the file says nothing.
+        "tracked", "inferred", "not_tracked", or "" if unknown.
     ids : int64 [R], optional
         Id of the person of each row, 0 or more; -1: no body. Left out: all of one person, 1.
     frames : int64 [R], optional
@@ -65,7 +65,7 @@ class Sequence:
     bones_m : float64 [R, 20], optional
         Metres: bone lengths estimated by cascaded refinement from this frame alone; NaN without.
     sensor : str
-        "Kinect v2" and "refined joints" have errors that ossa knows.
+        Origin of the joints: ossa corrects known errors of "Kinect v2" and "refined joints".
 
     Attributes
     ----------
@@ -191,7 +191,7 @@ class Sequence:
         Parameters
         ----------
         frames : iterable of Frame
-            What Tracker.track or Tracker.run gave.
+            Results of Tracker.track or Tracker.run.
         """
         return _sequence_of(frames)
 

@@ -66,7 +66,7 @@ class Tracker:
         "one-euro", or one with your own parameters. Left out: the default of the method; methods
         that are filters get none.
     max_users : int
-        Most people at a time, 1 to 6.
+        Maximum number of people at a time, 1 to 6.
     threads : int
         Threads for several people, 1 to 256. The results do not depend on it.
     seated : bool
@@ -79,7 +79,7 @@ class Tracker:
         Fill Frame.parts (an eighth of a frame's time), Frame.probabilities (128 bytes per pixel),
         Body.proposals.
     fit : bool
-        Fit the body's surface to the depth image where there are refined joints (Body.fit,
+        Fit the body's surface to the depth image if there are refined joints (Body.fit,
         Body.mesh), as `ossa track` does; the method then starts from the mean of fit and refined
         joints.
     refinement, learned, prior, database, pose_network, surface, mesh : path or "none", optional
@@ -268,10 +268,10 @@ class Tracker:
         """Tracks a whole source, frame by frame, as `ossa track SOURCE` does (of a recording, with
         lag=2).
 
-        Of a recording whose cameras' rotate is "auto" the beginning is looked through first for
-        which way up the camera is; of images that state no camera, for whether people are far
-        surer as one of a narrower view sees them (depth aligned to colour images), which is then
-        the source's, and told in its notes.
+        The beginning of a recording is searched first: for the rotation of the camera, if its
+        rotate is "auto"; and, for images that state no camera, for a camera with a narrower view
+        (depth aligned to colour images) with which people are detected with much higher
+        confidence. That camera is then the source's, and is reported in its notes.
 
         Parameters
         ----------
