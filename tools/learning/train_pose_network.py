@@ -372,14 +372,14 @@ def weights(model):
 
 
 def save(model, path):
-    """The file appears whole."""
+    """The file appears when it is complete."""
     partial = path + ".partial.npy"
     numpy.save(partial, weights(model))
     os.replace(partial, path)
 
 
 def keep_state(model, path):
-    """The file appears whole."""
+    """The file appears when it is complete."""
     torch.save(model.state_dict(), path + ".partial")
     os.replace(path + ".partial", path)
 
@@ -395,7 +395,7 @@ def is_running(process):
 
 
 def check(options, parser):
-    """Before the hours after which it would be told."""
+    """Checks options and output paths at the start, before hours of training."""
     if options.people <= 0 or options.batch < 1:
         parser.error("--people, --batch: expected numbers above 0")
     for path in filter(None, [options.out, options.keep]):
@@ -412,7 +412,7 @@ def read_validation(folders, device):
     return people
 
 
-def main():
+def parse_options():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("crops", nargs="+")
     parser.add_argument("--validation", nargs="*", default=[])
@@ -427,17 +427,17 @@ def main():
                         help="by torch.compile (PyTorch 2 and a C++ compiler): a minute to begin, "
                              "then twice as fast on a GPU")
     parser.add_argument("--watch", type=int, metavar="PID",
-                        help="folders may become whole while this process runs")
+                        help="folders may become complete while this process runs")
     parser.add_argument("--start", help="a .pt file of --keep to start from")
-    parser.add_argument("--keep", help="write the network as PyTorch knows it, too")
+    parser.add_argument("--keep", help="also write the network as a PyTorch state")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     check(options, parser)
+    return options
 
-    begun = time.time()
-    device = "cuda" if torch.cuda.is_available() else "cpu"
-    torch.manual_seed(options.seed)
-    torch.backends.cudnn.benchmark = True
+
+def read_people(options, device):
+    """Training people, at least --fewest: waits for folders that --watch may still complete."""
     people = People(options.crops, device, options.watch)
     while people.count < options.fewest:
         may_come = people.waiting and is_running(options.watch)
@@ -446,16 +446,27 @@ def main():
             sys.exit(f"expected at least {options.fewest} people of {FEWEST_JOINTS} known joints, "
                      f"found {people.count}")
         time.sleep(1)
-    validation = read_validation(options.validation, device)
-    print(f"{time.time() - begun:.0f} s: {people.count} people on {device}", flush=True)
+    return people
 
+
+def start_training(options, device):
     model = PoseNetwork().to(device)
     if options.start:
         model.load_state_dict(torch.load(options.start, map_location=device))
     model = model.to(memory_format=torch.channels_last)
     model.train()
-    training = Training(model, options, device)
-    average = training.average
+    return Training(model, options, device)
+
+
+def write(model, options):
+    save(model, options.out)
+    if options.keep:
+        keep_state(model, options.keep)
+
+
+def train(training, people, options, report):
+    """Trains for --people or --seconds. Every 20 seconds writes the averaged network and calls
+    report(number of people read, loss). Returns the number of people read."""
     start, read, reported = time.time(), 0, time.time()
     while True:
         if options.seconds:
@@ -463,7 +474,7 @@ def main():
         else:
             done = read / options.people
         if done >= 1:
-            break
+            return read
         # Up within the first hundredth, then down along a cosine.
         rate = min(1.0, done / 0.01 + 0.01) * (0.01 + 0.99 * 0.5 * (1 + math.cos(math.pi * done)))
         crops, joints = people.batch(options.batch)
@@ -471,17 +482,29 @@ def main():
         read += len(crops)
         if time.time() - reported > 20:
             people.read()
-            print(f"{time.time() - begun:.0f} s: {read} read of {people.count} people, "
-                  f"loss {training.loss.item():.3f}; {evaluate(average, validation)}", flush=True)
-            save(average, options.out)
-            if options.keep:
-                keep_state(average, options.keep)
+            report(read, f"loss {training.loss.item():.3f}; ")
+            write(training.average, options)
             reported = time.time()
-    save(average, options.out)
-    if options.keep:
-        keep_state(average, options.keep)
-    print(f"{time.time() - begun:.0f} s: {read} read of {people.count} people; "
-          f"{evaluate(average, validation)}", flush=True)
+
+
+def main():
+    options = parse_options()
+    begun = time.time()
+    device = "cuda" if torch.cuda.is_available() else "cpu"
+    torch.manual_seed(options.seed)
+    torch.backends.cudnn.benchmark = True
+    people = read_people(options, device)
+    validation = read_validation(options.validation, device)
+    print(f"{time.time() - begun:.0f} s: {people.count} people on {device}", flush=True)
+    training = start_training(options, device)
+
+    def report(read, loss=""):
+        print(f"{time.time() - begun:.0f} s: {read} read of {people.count} people"
+              f"{', ' + loss if loss else '; '}{evaluate(training.average, validation)}", flush=True)
+
+    read = train(training, people, options, report)
+    write(training.average, options)
+    report(read)
 
 
 if __name__ == "__main__":
