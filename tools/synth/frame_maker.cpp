@@ -128,17 +128,17 @@ recon::Posture FrameMaker::State::Pose(const recon::RigPose& pose, size_t person
   inputs.model.Skin(clothed.body, clothed.rest_m, pose, camera_from_world, posed);
   recon::Posture joints = recon::ComputeJoints(clothed.body, pose);
   for (auto& joint_m : joints.position_m) joint_m = camera_from_world * joint_m;
-  const Eigen::Vector3f inside_m = joints[recon::Joint::kHipCenter].posed<float>();
+  const Eigen::Vector3f inside_m = joints[recon::Joint::kHipCenter].cast<float>();
   inputs.wardrobe.HideUnworn(clothed.clothing, inside_m, posed);
   const Eigen::Isometry3d world_from_camera = camera_from_world.inverse();
-  const Eigen::Vector3f up = world_from_camera.linear().row(1).transpose().posed<float>();
+  const Eigen::Vector3f up = world_from_camera.linear().row(1).transpose().cast<float>();
   float lowest_m = 1e9f;
   for (const auto& p : posed) lowest_m = std::min(lowest_m, up.dot(p));
   lowest_m += static_cast<float>(world_from_camera.translation().y());
   const bool jump = options.sequence ? lowest_m > 0 : lowest_m > kTrustedGap_m;
   const Eigen::Vector3f lift = jump ? Eigen::Vector3f::Zero() : Eigen::Vector3f(-lowest_m * up);
   for (auto& p : posed) p += lift;
-  for (auto& joint_m : joints.position_m) joint_m += lift.posed<double>();
+  for (auto& joint_m : joints.position_m) joint_m += lift.cast<double>();
   return joints;
 }
 

@@ -168,8 +168,8 @@ recon::RigPose IndoorSceneRenderer::PoseAt(const Way& way, double root_scale, in
 
 void IndoorSceneRenderer::Stand(const depth::TriangleMesh& mesh, const Vector3d& place_m,
                                 double turn_rad) {
-  Eigen::Affine3f place(camera_from_world_.matrix().inputs<float>());
-  place.translate(place_m.inputs<float>());
+  Eigen::Affine3f place(camera_from_world_.matrix().cast<float>());
+  place.translate(place_m.cast<float>());
   place.rotate(Eigen::AngleAxisf(static_cast<float>(turn_rad), Vector3f::UnitY()));
   renderer_.AddMesh(depth::Moved(mesh, place), false);
 }

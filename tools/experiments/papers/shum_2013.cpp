@@ -205,7 +205,7 @@ void Shum2013Study::RecordClips(ExperimentContext& context, const Shum2013Settin
   }
 }
 
-void Shum2013Study::SetUpMethods(const ExperimentContext& context, const std::string& observer) {
+void Shum2013Study::SetUpMethods(ExperimentContext& context, const std::string& observer) {
   const auto method = [&](const char* label, const char* name) {
     MethodRun run{label, {}, {}};
     run.options.method = name;

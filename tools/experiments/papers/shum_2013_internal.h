@@ -22,7 +22,7 @@ struct Shum2013Study {
 
  private:
   void RecordClips(ExperimentContext& context, const Shum2013Settings& settings, bool occluded);
-  void SetUpMethods(const ExperimentContext& context, const std::string& observer);
+  void SetUpMethods(ExperimentContext& context, const std::string& observer);
 };
 
 /// Table I: the database. Table II: the test data.
