@@ -95,7 +95,7 @@ void Track_640x480_ms(benchmark::State& state) {
     depth::DepthFrame frame = frames[static_cast<size_t>(n % kFrames)];
     frame.time_s = static_cast<double>(n++) / 30.0;
     tracker::BodyFrame bodies = tracker.Track(frame);
-    if (viewer) viewer->Show(MakeMoment(std::move(frame), std::move(bodies)));
+    if (viewer) viewer->Show(MakeDisplayFrame(std::move(frame), std::move(bodies)));
     benchmark::DoNotOptimize(bodies);
   }
   for (const auto& browser : browsers) {
@@ -145,7 +145,7 @@ class Watched {
       depth::DepthFrame frame = made[static_cast<size_t>(number_ % kFrames)];
       frame.time_s = static_cast<double>(number_++) / 30.0;
       tracker::BodyFrame bodies = tracker_->Track(frame);
-      if (is_shown) viewer_->Show(MakeMoment(std::move(frame), std::move(bodies)));
+      if (is_shown) viewer_->Show(MakeDisplayFrame(std::move(frame), std::move(bodies)));
       spent.cpu_s += ThreadTime_s() - cpu_s;
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
       spent.wall_s += took.count();
