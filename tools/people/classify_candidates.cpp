@@ -186,8 +186,11 @@ std::optional<Detection> ClassifyAroundHead(const ClassificationInput& input,
   part.plane.reset();
   Detection detection = Classify(input, std::move(part));
   ApplyPoseNetwork(input, detection);
-  if (!IsVerifiedByPose(detection) || detection.evidence.score < classification.head_piece_score)
-    return {};
+  // Of tracks the network is not asked where the forest is confident.
+  const bool is_sure_track = detection.candidate.track >= 0 &&
+                             detection.evidence.score >= input.options.initiation.confident_score;
+  const bool is_verified = IsVerifiedByPose(detection) || is_sure_track;
+  if (!is_verified || detection.evidence.score < classification.head_piece_score) return {};
   return detection;
 }
 
@@ -235,16 +238,33 @@ bool HasPerson(const std::vector<Detection>& detections, const InitiationOptions
   });
 }
 
+// Replaces a detection by the person around one of its heads, if there is one.
+void CropAroundHeads(const ClassificationInput& input, Detection& detection,
+                     std::vector<Decision>& decided) {
+  auto piece = FindPersonAroundHeads(input, detection);
+  if (!piece) return;
+  decided.push_back(DescribeDetection(detection, Rule::kSplitAtHeads,
+                                      input.options.initiation.person_by_pose_score));
+  detection = std::move(*piece);
+}
+
 // A rejected candidate may be a person with the furniture they touch. Tried only in frames without
 // people: beside a person it would as often be an object they hold.
 void RetryAroundHeads(const ClassificationInput& input, std::vector<Detection>& detections,
                       std::vector<Decision>& decided) {
-  const double needed = input.options.initiation.person_by_pose_score;
+  for (Detection& detection : detections) CropAroundHeads(input, detection, decided);
+}
+
+// The connected region of a tracked person includes that furniture again in each frame, unless the
+// known background separates it.
+void CropTracksAroundHeads(const ClassificationInput& input, std::vector<Detection>& detections,
+                           std::vector<Decision>& decided) {
+  const InitiationOptions& options = input.options.initiation;
   for (Detection& detection : detections) {
-    auto piece = FindPersonAroundHeads(input, detection);
-    if (!piece) continue;
-    decided.push_back(DescribeDetection(detection, Rule::kSplitAtHeads, needed));
-    detection = std::move(*piece);
+    if (detection.candidate.track < 0 || IsForeground(detection.candidate)) continue;
+    const bool is_certain =
+        Passes(detection, options) && detection.evidence.score >= options.person_by_pose_score;
+    if (!is_certain) CropAroundHeads(input, detection, decided);
   }
 }
 
@@ -434,6 +454,7 @@ std::vector<Detection> ClassifyCandidates(const ClassificationInput& input,
   if (input.classifier.network == nullptr) return result;
   ParallelFor(result.size(), input.options.threads,
               [&](size_t i) { ApplyPoseNetwork(input, result[i]); });
+  CropTracksAroundHeads(input, result, decided);
   if (!input.scene.fresh) return result;
   const InitiationOptions& initiation = input.options.initiation;
   if (!HasPerson(result, initiation)) RetryAroundHeads(input, result, decided);

@@ -250,8 +250,9 @@ struct InitiationOptions {
   // Mean score of a new track that moves but was rejected before or was never foreground: a surface
   // that grows while a person who hid it walks past seems to move, too.
   double doubtful_mean_score = 0.75;  // score
-  // Tracks without any movement after still_age observations are most likely furniture; lower,
-  // because a person behind a chair may seem not to move.
+  // Tracks without any movement after still_age observations are most likely furniture, unless the
+  // pose network contributes (person_by_pose_score); lower, because a person behind a chair may
+  // seem not to move.
   double still_track_score = 0.7;  // score
   int still_age = 10;              // detections
   int mature_age = 30;             // detections; then a person who bends down stays a person

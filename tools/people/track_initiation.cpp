@@ -91,6 +91,12 @@ void UpdateTentative(const Detection& detection, double time_s, const Initiation
   track.was_foreground = track.was_foreground || detection.candidate.foreground_m2 > 0;
 }
 
+// The threshold for a track that never moved. Where the pose network contributes it is that of a
+// new person: somebody who was accepted by it and sits still stays accepted.
+double RequireOfStillTrack(const Detection& detection, const InitiationOptions& options) {
+  return IsVerifiedByPose(detection) ? options.person_by_pose_score : options.still_track_score;
+}
+
 // A track continues by its mean score. The threshold is higher for young tracks, which may be
 // chance detections of furniture, and for those that never moved; lower for foreground.
 Decision DecideTracked(const Detection& detection, double time_s, const InitiationOptions& options,
@@ -103,7 +109,7 @@ Decision DecideTracked(const Detection& detection, double time_s, const Initiati
   const bool early = detection.age <= options.early_age;
   const bool still = detection.age > options.still_age && !prior.moved;
   const double needed = entered ? options.foreground_track_score
-                        : still ? options.still_track_score
+                        : still ? RequireOfStillTrack(detection, options)
                         : early ? options.early_track_score
                                 : options.tracked_score;
   if (detection.score >= needed) return DescribeDetection(detection, Rule::kTrackContinued, needed);

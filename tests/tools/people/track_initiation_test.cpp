@@ -190,6 +190,18 @@ TEST_F(NewPerson, ThresholdFallsWithAgeUnlessThePersonNeverMoved) {
   }
 }
 
+TEST_F(NewPerson, AcceptedByThePoseNetworkGoesOnByItsThresholdWithoutMoving) {
+  for (const auto& [verifier, needed] :
+       {std::pair(Verifier::kForest, options_.still_track_score),
+        std::pair(Verifier::kForestAndNetwork, options_.person_by_pose_score)}) {
+    std::vector<TentativeTrack> tentative;
+    Detection detection = Detect({.score = 0.6, .verifier = verifier});
+    detection.age = options_.still_age + 1;
+    EXPECT_EQ(DecidePerson(false, 1.0, options_, tentative, detection), needed < 0.6);
+    EXPECT_EQ(detection.decision.needed_score, needed);
+  }
+}
+
 // The number of tentative tracks after one object, and another after a delay: one if it is the
 // same.
 size_t CountThings(const TentativeTrack& before, Detection now, double later_s) {

@@ -90,16 +90,16 @@ TEST(FirstFrame, PersonDividedByAnArmIsOneBody) {
   EXPECT_EQ(joined, 1);
 }
 
-// A person, and at the height of their hips objects at the same depth that reach a metre to either
+// A person, and at the height of their hips objects at the same depth that reach so far to either
 // side: one connected region.
-depth::DepthFrame PersonBetweenThings() {
+depth::DepthFrame PersonBetweenThings(double reach_m) {
   depth::DepthFrame frame = Rendered({PersonAt(0, 2.5)}).frame;
   const depth::Camera& camera = frame.camera;
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       const double x_m = -2.4 * (u - camera.cx) / camera.fx,
                    y_m = -2.4 * (v - camera.cy) / camera.fy;
-      if (std::abs(x_m) > 1.0 || y_m > -0.5 || y_m < -0.8) continue;
+      if (std::abs(x_m) > reach_m || y_m > -0.5 || y_m < -0.8) continue;
       const double z_m = 2.5 + 0.05 * std::sin(11 * x_m) * std::cos(9 * y_m);  // no plane
       uint16_t& depth_mm = frame.depth_mm[static_cast<size_t>(v * camera.width + u)];
       depth_mm = std::min(depth_mm, static_cast<uint16_t>(1000 * z_m));
@@ -109,25 +109,35 @@ depth::DepthFrame PersonBetweenThings() {
 }
 
 // The largest segment of the last classification, where crops around heads need such a score.
-people::Detection LargestPiece(const depth::DepthFrame& frame, double head_piece_score) {
+// `tracks`: none in the first frame; else of the frame before, and all candidates continue the
+// first.
+people::Detection LargestPiece(depth::DepthFrame frame, double head_piece_score,
+                               const std::vector<people::Track>& tracks = {}) {
   const ModelSet models = ModelSet::Shipped(TrackerOptions{}.method);
   const auto targets = people::FindJointTargets(*models.forest, models.forest_file);
-  const auto sure = NetworkOfError(-2.0F);
+  const auto network = NetworkOfError(tracks.empty() ? -2.0F : 1.0F);
   people::PeopleOptions options;
   options.classification.head_piece_score = head_piece_score;
   depth::SceneState state;
-  const depth::Scene scene = depth::MeasureScene(frame, state, options.scene);
-  const std::vector<people::Track> nobody;
-  auto proposed = people::ProposeCandidates(frame, scene, nobody, options.association.reidentify,
+  depth::Scene scene = depth::MeasureScene(frame, state, options.scene);
+  auto proposed = people::ProposeCandidates(frame, scene, {}, options.association.reidentify,
                                             options.candidates, false);
+  if (!tracks.empty()) {
+    frame.time_s += 1.0 / 30.0;
+    scene = depth::MeasureScene(frame, state, options.scene);
+    for (people::Candidate& candidate : proposed.candidates) candidate.track = 0;
+  }
   std::vector<people::Decision> decided;
   const auto detections = people::ClassifyCandidates(
-      {{*models.forest, targets, sure.get()}, frame, scene, nobody, options},
+      {{*models.forest, targets, network.get()}, frame, scene, tracks, options},
       std::move(proposed.candidates), decided);
   return *std::ranges::max_element(detections, {}, [](const people::Detection& detection) {
     return detection.candidate.region.area_m2;
   });
 }
+
+constexpr double kNever = 1.1;  // a score above all
+constexpr double kNeeded = people::ClassificationOptions{}.head_piece_score;
 
 double Width_m(const people::Detection& detection) {
   const auto& region = detection.candidate.region;
@@ -136,14 +146,27 @@ double Width_m(const people::Detection& detection) {
 
 TEST(FirstFrame, RejectedCandidateIsCroppedAroundItsHead) {
   OSSA_NEEDS_MODEL();
-  constexpr double kNever = 1.1;
-  const depth::DepthFrame frame = PersonBetweenThings();
-  const double needed = people::ClassificationOptions{}.head_piece_score;
-  const people::Detection whole = LargestPiece(frame, kNever), cut = LargestPiece(frame, needed);
+  const depth::DepthFrame frame = PersonBetweenThings(1.0);
+  const people::Detection whole = LargestPiece(frame, kNever), cut = LargestPiece(frame, kNeeded);
   EXPECT_GT(Width_m(whole), 1.8);
   EXPECT_LT(whole.score, people::InitiationOptions{}.person_by_pose_score);
   EXPECT_LT(Width_m(cut), 1.5);
-  EXPECT_GE(cut.evidence.score, needed);
+  EXPECT_GE(cut.evidence.score, kNeeded);
+}
+
+// The connected region includes the objects in later frames, too.
+TEST(FirstFrame, ATrackWithALowScoreIsCroppedAroundItsHeadInLaterFrames) {
+  OSSA_NEEDS_MODEL();
+  people::Track track;
+  track.score = 0.9;
+  track.age = 1;
+  const depth::DepthFrame frame = PersonBetweenThings(1.4);
+  const people::Detection whole = LargestPiece(frame, kNever, {track});
+  const people::Detection cut = LargestPiece(frame, kNeeded, {track});
+  EXPECT_GT(Width_m(whole), 2.6);
+  EXPECT_LT(whole.evidence.score, people::InitiationOptions{}.person_by_pose_score);
+  EXPECT_LT(Width_m(cut), 1.5);
+  EXPECT_GE(cut.evidence.score, kNeeded);
 }
 
 }  // namespace
