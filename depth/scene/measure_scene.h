@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct SceneState {
   BackgroundState background;
   int frame_width = 0, frame_height = 0;
   std::vector<float> last_z_m;  // depth of each cell in the last frame, 0 = not measured
-  double last_s = -1e9;         // time of the last frame
+  double last_s = -std::numeric_limits<double>::infinity();  // time of the last frame
 };
 
 /// Constants: set by hand while developing on rendered rooms with validation subjects (`ossa

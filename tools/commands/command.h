@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -51,7 +52,7 @@ class Progress {
   bool terminal_;
   bool open_line_ = false;
   double start_s_;
-  double last_s_ = -1e9;
+  double last_s_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace ossa::commands

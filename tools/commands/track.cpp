@@ -122,6 +122,7 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
     run.lost_gaps += gone ? 1 : 0;
     gone = false;
     const auto bodies = tracker.TrackWithLag(read.frame);
+    PrintWarning("track", options.source.name, tracker);
     const bool hung = std::exchange(hangs, tracker.mount() == tracker::Mount::kCeiling);
     if (hangs && !hung && !options.quiet) PrintMount();
     ++tracked;

@@ -192,6 +192,9 @@ int TrackSeveral(const TrackOptions& options) {
   Cameras cameras;
   for (const std::string& name : options.Sources()) cameras.push_back(OpenCamera(options, name));
   TrackCameras(cameras, options);
+  for (const auto& camera : cameras) {
+    PrintWarning("track", camera->arguments.name, *camera->tracker);
+  }
   const auto fused = FuseOrKeep(options, cameras, TakeSkeletons(cameras));
   PrintWarnings("track", fused.skeletons.warnings);
   WriteFused("track", options.fuse, options.out, fused, write);

@@ -191,6 +191,7 @@ class PageTracker {
       std::this_thread::sleep_until(clock_.DueAt(read.frame.time_s));
     }
     tracker::BodyFrame bodies = tracker_.Track(read.frame);
+    PrintWarning("view", options_.source.name, tracker_);
     std::vector<viewer::Solid> solids = viewer::SolidsOf(bodies, options_.mechanics.follows());
     viewer::DisplayFrame display = viewer::MakeDisplayFrame(read.frame, std::move(bodies));
     display.solids = std::move(solids);

@@ -32,4 +32,10 @@ void PrintWarnings(std::string_view command, const std::vector<std::string>& war
   }
 }
 
+void PrintWarning(std::string_view command, const std::string& source, tracker::Tracker& tracker) {
+  if (const auto warning = tracker.TakeWarning()) {
+    PrintWarnings(command, std::vector{fmt::format("{}: {}", source, *warning)});
+  }
+}
+
 }  // namespace ossa::commands

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -42,7 +43,7 @@ struct Track {
   std::optional<double> score;  // probability of being a person: weighted mean over the frames
   int age = 0;                  // detections
   std::vector<float> facing;    // posterior of the model's contexts (forest::Classification)
-  double facing_s = -1e9;       // time of `facing`
+  double facing_s = -std::numeric_limits<double>::infinity();  // time of `facing`
 };
 
 /// A track's predicted centroid: with constant velocity for at most `max_prediction_s`.

@@ -235,7 +235,9 @@ ossa_status ossa_tracker_object(const ossa_tracker* tracker, int32_t place, ossa
 }
 
 const char* ossa_tracker_take_note(ossa_tracker* tracker, int32_t* kind) {
-  if (tracker == nullptr || tracker->warnings.empty()) return nullptr;
+  if (tracker == nullptr) return nullptr;
+  if (auto warning = tracker->tracker.TakeWarning()) tracker->warnings.push_back(*warning);
+  if (tracker->warnings.empty()) return nullptr;
   tracker->taken_note = std::move(tracker->warnings.front());
   tracker->warnings.pop_front();
   if (kind != nullptr) *kind = OSSA_NOTE_WARNING;

@@ -24,7 +24,7 @@ struct ossa_tracker {
   std::string surface_file, mesh_file;  // as ossa_options names them, "": the shipped one
   std::shared_ptr<const ossa::recon::BodyMesh> mesh;  // loaded with the first skin
   std::vector<float> skin_m;                          // of the last skin
-  std::deque<std::string> warnings;                   // of the models, not yet taken
+  std::deque<std::string> warnings;                   // not yet taken
   std::string taken_note;
 };
 

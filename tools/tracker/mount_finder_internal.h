@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "depth/image/depth_frame.h"
 #include "tools/people/options.h"
 #include "tools/tracker/tracker.h"
@@ -51,7 +53,7 @@ class MountFinder {
  private:
   MountOptions options_;
   bool is_level_ = false;
-  double checked_s_ = -1e9;
+  double checked_s_ = -std::numeric_limits<double>::infinity();
   int checks_ = 0, above_checks_ = 0;
   int level_checks_ = 0;  // checks with a person on a level floor
 };

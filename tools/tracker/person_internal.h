@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -59,16 +60,17 @@ bool IsRecent(double since_s, const HoldOptions& options);
 struct Person {
   int id = 0;
   double seen_s = 0.0;
-  double before_s = -1e9;  // time of `before`
+  double before_s = -std::numeric_limits<double>::infinity();  // time of `before`
   recon::BoneLengths lengths_m = AverageBoneLengths();
   // From the estimates of the refinement cascade.
   recon::BoneLengthEstimator bones{recon::BoneLengthOptions::ForNetworkEstimates()};
   std::optional<recon::TrackedPosture> before;  // of the last tracked frame
   std::optional<recon::Posture> shown;          // the skeleton returned in the last frame, at ...
-  double shown_s = -1e9;
-  double believed_s = -1e9;             // time of the last accepted observation,
-  size_t believed_joints = 0;           // ... and its number of tracked joints
-  recon::StationaryPosture stationary;  // averages stationary joints
+  double shown_s = -std::numeric_limits<double>::infinity();
+  double believed_s =
+      -std::numeric_limits<double>::infinity();  // time of the last accepted observation,
+  size_t believed_joints = 0;                    // ... and its number of tracked joints
+  recon::StationaryPosture stationary;           // averages stationary joints
   std::unique_ptr<recon::SurfaceFitter> fitter;
   recon::PersonShape shape;  // mean of the surface fits
   std::unique_ptr<recon::Reconstructor> reconstructor;

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -27,11 +28,11 @@ struct HandMemory {
   std::vector<Place> seen;                                      // as tracked, latest last
   Eigen::Vector3d seen_velocity_m_s = Eigen::Vector3d::Zero();  // of the last frame only
   Eigen::Vector3d fastest_m_s = Eigen::Vector3d::Zero();        // of the current swing, as tracked
-  double held_at_m = 0.0;      // as tracked, from the surface when it grabbed
-  double away_s = 0.0;         // time beyond the release distance
-  GrabRule taken_by{};         // the rule by which it grabbed
-  bool shares = false;         // other hands hold the object, too, so that it may turn in this one
-  double rest_until_s = -1e9;  // grabs nothing before
+  double held_at_m = 0.0;  // as tracked, from the surface when it grabbed
+  double away_s = 0.0;     // time beyond the release distance
+  GrabRule taken_by{};     // the rule by which it grabbed
+  bool shares = false;     // other hands hold the object, too, so that it may turn in this one
+  double rest_until_s = -std::numeric_limits<double>::infinity();  // grabs nothing before
 
   void See(double time_s, const Eigen::Vector3d& at_m);
   /// The person was moved to another place; holds are kept.

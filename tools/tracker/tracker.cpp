@@ -143,6 +143,7 @@ Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 BodyFrame Tracker::TrackFilled(const depth::DepthFrame& frame) {
   const Stopwatch watch;
   CheckFrame(frame);
+  times_.Add(frame.time_s);
   const auto filled = depth::FillScatteredHoles(frame);
   BodyFrame result = TrackAsMounted(filled ? *filled : frame);
   if (filled) ClearHoles(frame.view(), result);
@@ -239,7 +240,9 @@ void Tracker::SetSmoothing(const SmoothingOptions& smoothing) {
   smoothing.Check();
   impl_->skeleton.smoothing = smoothing;
 }
+std::optional<std::string> Tracker::TakeWarning() { return times_.TakeWarning(); }
 void Tracker::Reset() {
+  times_ = {};
   if (level_) {
     level_->CopySettings(*impl_);
     impl_ = std::move(level_);

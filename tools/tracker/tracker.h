@@ -15,6 +15,7 @@
 #include "recon/methods/reconstructor.h"
 #include "recon/posture.h"
 #include "tools/people/decision.h"
+#include "tools/tracker/frame_time_check.h"
 #include "tools/tracker/mechanics.h"
 #include "tools/tracker/model_set.h"
 #include "tools/tracker/scene.h"
@@ -246,6 +247,8 @@ class Tracker {
   /// The scene of TrackerOptions::scene; null without. Valid until the next frame: with
   /// Mount::kAuto the tracker may be replaced then.
   Scene* scene();
+  /// A line for the user if the times of the first frames cannot be seconds; once.
+  std::optional<std::string> TakeWarning();
   /// Deletes all tracks, the frames held by the lag (call DrainLag before), the found mount of
   /// Mount::kAuto and the found rotation of Turn::kAuto; restarts the scene.
   void Reset();
@@ -259,6 +262,7 @@ class Tracker {
   std::unique_ptr<Impl> impl_;
   std::unique_ptr<Impl>
       level_;  // while impl_ is the tracker for the ceiling: the one for a level camera
+  FrameTimeCheck times_;
 };
 
 /// "MAJOR.MINOR.PATCH" of the loaded library, which may differ from the headers'.

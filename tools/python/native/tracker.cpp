@@ -373,6 +373,11 @@ class Tracker {
     });
   }
 
+  std::optional<std::string> TakeWarning() {
+    std::optional<std::string> warning;
+    Locked([&](tracker::Tracker& t) { warning = t.TakeWarning(); });
+    return warning;
+  }
   void ChooseUsers(const std::optional<std::vector<int>>& ids) {
     Locked([&](tracker::Tracker& t) { ids ? t.ChooseUsers(*ids) : t.ChooseAllUsers(); });
   }
@@ -458,6 +463,7 @@ void AddTracker(py::module_& module) {
       .def("take_held", &Tracker::DrainLag)
       .def("find_camera", &Tracker::FindCamera, py::arg("source"), py::arg("options"))
       .def("find_upright", &Tracker::FindUpright, py::arg("source"), py::arg("options"))
+      .def("take_warning", &Tracker::TakeWarning)
       .def("choose_users", &Tracker::ChooseUsers, py::arg("ids"))
       .def("set_seated", &Tracker::SetSeated, py::arg("seated"))
       .def("set_smoothing", &Tracker::SetSmoothing, py::arg("smoothing"))

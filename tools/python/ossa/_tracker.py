@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -19,6 +20,7 @@ from ._sources import open as open_source
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+_LOG = logging.getLogger("ossa")
 _STEP_S = 1.0 / 30.0  # between frames without times
 
 
@@ -205,8 +207,8 @@ class Tracker:
         camera : ossa.Camera
             The camera of the image.
         time_s : float, optional
-            Seconds, by any clock that increases from image to image. Left out: a thirtieth of a
-            second after the previous image.
+            Seconds, by any clock that increases from image to image: of milliseconds the logger
+            "ossa" warns once. Left out: a thirtieth of a second after the previous image.
 
         Returns
         -------
@@ -218,6 +220,7 @@ class Tracker:
             For another type, shape or order, an invalid camera, a time that is not finite.
         """
         made = self._native.track(*self._checked(depth_mm, camera, time_s))
+        self._log_warning()
         return frame_from(made, self._faces)
 
     def track_late(
@@ -244,6 +247,7 @@ class Tracker:
             None for the first `lag` images; take_held returns the last frames.
         """
         made = self._native.track_late(*self._checked(depth_mm, camera, time_s))
+        self._log_warning()
         return None if made is None else frame_from(made, self._faces)
 
     def take_held(self) -> Optional[Frame]:
@@ -299,6 +303,12 @@ class Tracker:
         if failure is not None:
             raise failure
 
+    def _log_warning(self, where: str = "") -> None:
+        """Of times that cannot be seconds, once."""
+        warning = self._native.take_warning()
+        if warning is not None:
+            _LOG.warning("%s%s", where, warning)
+
     def _find_camera(self, source: Source) -> None:
         if "camera" in source._options or source.is_live:
             return
@@ -321,6 +331,7 @@ class Tracker:
         turn = ROTATIONS.index(source._rotate)
         while (seen := source._wait_for(lambda ms: self._native.track_next(source._native, ms, turn))) is not None:
             _, made, self._time_s, _ = seen
+            self._log_warning(f"{source.name}: ")
             if made is not None:
                 yield frame_from(made, self._faces)
 

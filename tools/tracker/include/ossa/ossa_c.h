@@ -124,7 +124,8 @@ ossa_status ossa_source_read(ossa_source* source, int32_t timeout_ms, ossa_depth
 
 typedef enum {
   OSSA_NOTE_INFO = 0,   /* an assumption, or skipped data */
-  OSSA_NOTE_WARNING = 1 /* lost data, or models that do not belong together */
+  OSSA_NOTE_WARNING = 1 /* lost data, an assumption that is probably wrong, or models that do
+                              not belong together */
 } ossa_note_kind;
 
 /* The next message about a source that was not taken yet, from opening it and from all reads so
@@ -300,8 +301,9 @@ ossa_status ossa_tracker_skin(ossa_tracker* tracker, int32_t place, ossa_skin* s
 ossa_status ossa_tracker_save_person(const ossa_tracker* tracker, int32_t place, const char* path);
 /* An object of the last frame, by its index from 0 to object_count - 1. */
 ossa_status ossa_tracker_object(const ossa_tracker* tracker, int32_t place, ossa_object* object);
-/* The next message about the models' files, as ossa_source_take_note: such as a refinement trained
-   on another forest's joints. Valid until the next call. */
+/* The next message, as ossa_source_take_note: about the models' files, such as a refinement trained
+   on another forest's joints, or about the times of the first images, which cannot be seconds.
+   Valid until the next call. */
 const char* ossa_tracker_take_note(ossa_tracker* tracker, int32_t* kind);
 /* The current clockwise rotation of the images, degrees. */
 int32_t ossa_tracker_rotation(const ossa_tracker* tracker);
