@@ -7,6 +7,7 @@
 
 #include "depth/base/error.h"
 #include "recon/methods/recorded_pairs.h"
+#include "tools/experiments/compare/comparison.h"
 
 namespace ossa::tools {
 namespace {
@@ -52,6 +53,24 @@ void WarnOfUnpaired(const std::string& observed_path, const std::string& truth_p
                   observed_path, without, truth.size(), observed[first].name, truth_path));
 }
 
+// Of another moment of the truth a correction would learn the movement between. Warns of the first.
+void WarnOfClock(const std::string& observed_path, const std::string& truth_path,
+                 const std::vector<const recon::SkeletonClip*>& truth, Clips& observed) {
+  PairOptions as_they_are;
+  as_they_are.time = TimeAlignment::kNone;
+  for (size_t i = 0; i < observed.size(); ++i) {
+    if (truth[i] == nullptr) continue;
+    recon::SkeletonSequence& sequence = observed[i].sequence;
+    const auto clock = FindClockDifference(PairUp(truth[i]->sequence, sequence, as_they_are));
+    if (!clock) continue;
+    sequence.warnings.push_back(fmt::format(
+        "{}{}{} is far nearer to {} {}: if their clocks differ, correct its times first",
+        observed_path, observed[i].name.empty() ? "" : "#", observed[i].name, truth_path,
+        Describe(*clock)));
+    return;
+  }
+}
+
 void AddClips(const std::string& observed_path, const Clips& observed,
               const std::vector<const recon::SkeletonClip*>& truth, People& people,
               std::vector<recon::PosturePair>& pairs) {
@@ -80,6 +99,7 @@ std::vector<recon::PosturePair> PairRecordings(
     const Clips known = recon::ReadSkeletonClips(truth[i], reading);
     const auto truth_of = FindTruth(seen, known);
     WarnOfUnpaired(observed[i], truth[i], truth_of, seen);
+    WarnOfClock(observed[i], truth[i], truth_of, seen);
     if (read && !(read(seen) && read(known))) return pairs;
     const size_t before = pairs.size();
     AddClips(observed[i], seen, truth_of, people, pairs);

@@ -55,6 +55,20 @@ TEST_F(PairedFolders, OfOneRecordingEachArePairedWhateverTheNames) {
   EXPECT_TRUE(said_.empty());
 }
 
+// The first of the frames are left out, and the rest counted from 0.
+recon::SkeletonSequence BegunLater(const std::vector<recon::Posture>& postures, int frames) {
+  return recon::test::SequenceOf({postures.begin() + frames, postures.end()});
+}
+
+TEST_F(PairedFolders, WarnOfARecordingWhoseClockIsAnother) {
+  const std::vector<recon::Posture> walk = recon::test::Seen(1, 300).truth;
+  recon::WriteSkeletons(true_ + "/walk.jsonl", recon::test::SequenceOf(walk));
+  recon::WriteSkeletons(seen_ + "/walk.jsonl", BegunLater(walk, 24));
+  CountPairs();
+  ASSERT_EQ(said_.size(), 1u);
+  EXPECT_NE(said_[0].find("with +0.80 s added to its times"), std::string::npos) << said_[0];
+}
+
 TEST_F(PairedFolders, WithoutACommonNameAreRefused) {
   for (const char* name : {"a", "b"}) WriteWalk(seen_, name);
   WriteWalk(true_, "c");

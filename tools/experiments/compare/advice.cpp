@@ -63,28 +63,13 @@ PairedTracks AtOffset(const PairedTracks& pair, double offset_s) {
   return moved;
 }
 
-// Files that begin at 0 with the same rate have equal frame times, whenever they were started.
 std::string AdviseOnClock(const ComparedResult& result) {
-  constexpr double kFarthest_s = 2.0;   // as PairOptions::max_offset_s
-  constexpr double kShortest_s = 0.15;  // a smaller offset may be a filter's lag, which is an error
-  int searches = 5;                     // for speed: only the first clips with large errors
-  for (const PairedTracks& whole : result.pairs) {
-    if (!whole.same_clock || searches == 0) continue;
-    const PairedTracks pair = SelectBeginning(whole);
-    const auto error_cm = Measure(pair).parent_relative_error_cm;
-    if (error_cm.value_or(0) < kLeast_cm) continue;
-    --searches;
-    const double offset_s =
-        MatchClocks({pair.time_s, pair.truth}, {pair.time_s, pair.result}, kFarthest_s).offset_s;
-    if (std::abs(offset_s) < kShortest_s) continue;
-    const auto moved_cm = Measure(AtOffset(pair, offset_s)).parent_relative_error_cm;
-    if (!IsFarNearer(moved_cm, error_cm)) continue;
-    return fmt::format(
-        "{} is far nearer to the truth with {:+.2f} s added to its times (parent-relative error "
-        "{:.1f} instead of {:.1f} cm): if their clocks differ, add --time correlate.",
-        result.label, offset_s, *moved_cm, *error_cm);
-  }
-  return "";
+  const auto found = FindClockDifference(result.pairs);
+  if (!found) return "";
+  return fmt::format(
+      "{} is far nearer to the truth {}: if their clocks differ, add --time "
+      "correlate.",
+      result.label, Describe(*found));
 }
 
 std::string AdviseOnOrigin(const ComparedResult& result) {
@@ -97,6 +82,32 @@ std::string AdviseOnOrigin(const ComparedResult& result) {
 }
 
 }  // namespace
+
+// Files that begin at 0 at the same rate have the same frame times, whenever each was begun.
+std::optional<ClockDifference> FindClockDifference(const std::vector<PairedTracks>& pairs) {
+  constexpr double kFarthest_s = 2.0;   // as PairOptions::max_offset_s
+  constexpr double kShortest_s = 0.15;  // what is less may be a filter's lag, which is an error
+  int searches = 5;  // for speed: of a folder of long recordings the first that are far off
+  for (const PairedTracks& whole : pairs) {
+    if (!whole.same_clock || searches == 0) continue;
+    const PairedTracks pair = SelectBeginning(whole);
+    const auto error_cm = Measure(pair).parent_relative_error_cm;
+    if (error_cm.value_or(0) < kLeast_cm) continue;
+    --searches;
+    const double offset_s =
+        MatchClocks({pair.time_s, pair.truth}, {pair.time_s, pair.result}, kFarthest_s).offset_s;
+    if (std::abs(offset_s) < kShortest_s) continue;
+    const auto moved_cm = Measure(AtOffset(pair, offset_s)).parent_relative_error_cm;
+    if (IsFarNearer(moved_cm, error_cm)) return ClockDifference{offset_s, *error_cm, *moved_cm};
+  }
+  return std::nullopt;
+}
+
+std::string Describe(const ClockDifference& clock) {
+  return fmt::format(
+      "with {:+.2f} s added to its times (parent-relative error {:.1f} instead of {:.1f} cm)",
+      clock.offset_s, clock.moved_cm, clock.error_cm);
+}
 
 std::string MakeAdvice(const Comparison& comparison) {
   for (const ComparedResult& result : comparison.results) {

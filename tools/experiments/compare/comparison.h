@@ -64,6 +64,17 @@ std::string ToJson(const Comparison& comparison);
 /// A suggestion if the errors show that the skeletons are in different coordinate systems or on
 /// different clocks, or that one is mirrored; else "".
 std::string MakeAdvice(const Comparison& comparison);
+/// The clocks of a result and its truth that evidently differ.
+struct ClockDifference {
+  double offset_s = 0.0;  // to add to the times of the result
+  // Parent-relative errors (ClipMetrics) as the times are, and with the offset.
+  double error_cm = 0.0, moved_cm = 0.0;
+};
+/// Of pairs whose clock was not looked for: the difference of the first that is far nearer to the
+/// truth at an offset of at most 2 s. None where the clocks are one, or nothing shows it.
+std::optional<ClockDifference> FindClockDifference(const std::vector<PairedTracks>& pairs);
+/// Of a message: offset and errors.
+std::string Describe(const ClockDifference& clock);
 /// Tables for a terminal.
 std::string ToText(const Comparison& comparison);
 /// A self-contained HTML file: tables, error over time, cumulative curves, bars per joint, the

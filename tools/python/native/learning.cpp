@@ -57,9 +57,9 @@ std::string Evaluate(const std::string& path, const std::string& dataset, int64_
   });
 }
 
-// Returns the number of pairs.
-size_t Learn(const std::vector<std::string>& observed, const std::vector<std::string>& truth,
-             const std::string& out, const py::dict& given) {
+// Returns the number of pairs and the warnings.
+py::tuple Learn(const std::vector<std::string>& observed, const std::vector<std::string>& truth,
+                const std::string& out, const py::dict& given) {
   recon::LearnOptions options;
   options.mixture.seed = options.correction.seed = given["seed"].cast<uint64_t>();
   options.mixture.regions = given["regions"].cast<int>();
@@ -69,14 +69,21 @@ size_t Learn(const std::vector<std::string>& observed, const std::vector<std::st
   recon::SkeletonReadOptions reading;
   reading.mapping_file = given["mapping"].cast<std::string>();
   reading.frame_s = given["frame_s"].cast<double>();
-  return Interruptible([&] {
-    const auto pairs =
-        tools::PairRecordings(observed, truth, reading, [](const auto&) { return CheckSignals(); });
+  std::vector<std::string> warnings;
+  const size_t count = Interruptible([&] {
+    const auto pairs = tools::PairRecordings(observed, truth, reading, [&](const auto& clips) {
+      for (const recon::SkeletonClip& clip : clips) {
+        const std::vector<std::string>& more = clip.sequence.warnings;
+        warnings.insert(warnings.end(), more.begin(), more.end());
+      }
+      return CheckSignals();
+    });
     const auto models =
         recon::LearnedModels::Learn(pairs, options, [](int) { return CheckSignals(); });
     if (CheckSignals()) models.Save(out);
     return pairs.size();
   });
+  return py::make_tuple(count, warnings);
 }
 
 }  // namespace

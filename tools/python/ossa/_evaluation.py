@@ -220,7 +220,9 @@ def learn(
         seen = [files.path_of("observed", s) for s in _several("observed", observed)]
         known = [files.path_of("truth", s) for s in _several("truth", truth)]
         try:
-            count = _native.learn(seen, known, written, options)
+            count, warnings = _native.learn(seen, known, written, options)
         except _native.InputError as error:
             raise _native.InputError(files.named(str(error))) from None
+        for warning in warnings:
+            _LOG.warning("%s", files.named(warning))
     return {"out": written, "pairs": count}
