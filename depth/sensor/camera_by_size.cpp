@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -13,6 +15,18 @@ Camera ChosenCamera(const SourceOptions& options, int width, int height) {
   return is_preset && options.mirrored ? Unmirrored(camera) : camera;
 }
 
+namespace {
+
+// Whether an image may be a Kinect v1's, enlarged or made smaller. One of another shape is of a
+// camera with another field of view, in which people would have another size.
+bool HasKinectShape(int width, int height) {
+  constexpr int kAcross = 4, kDown = 3;  // a ratio, by definition of 640x480
+  const int longer = std::max(width, height), shorter = std::min(width, height);
+  return std::abs(kDown * longer - kAcross * shorter) <= kAcross;  // rounded
+}
+
+}  // namespace
+
 Camera CameraByImageSize(const std::string& name, int width, int height,
                          const SourceOptions& options) {
   const CameraGuess guess = GuessCamera(width, height);
@@ -22,7 +36,8 @@ Camera CameraByImageSize(const std::string& name, int width, int height,
          << (guess.sizes_match ? " are taken for a " : " are of no camera known, and taken for a ")
          << guess.preset << "'s (f " << std::lround(guess.camera.fx)
          << " px): --camera says otherwise (-color: depth aligned to colour images)";
-    options.note(NoteKind::kInfo, text.str());
+    const bool may_be_right = guess.sizes_match || HasKinectShape(width, height);
+    options.note(may_be_right ? NoteKind::kInfo : NoteKind::kWarning, text.str());
   }
   if (options.guessed) options.guessed(guess);
   return options.mirrored ? Unmirrored(guess.camera) : guess.camera;

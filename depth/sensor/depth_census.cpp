@@ -262,4 +262,14 @@ std::optional<DepthSuspicion> DepthCensus::Judge() const {
   return bend_.IsInverted() && !bulge_.IsRound() ? inverted : range;
 }
 
+std::optional<double> DepthCensus::FindFarMedian_m() const {
+  // By hand: halves and fifths of a room of 4 m with a person in it; of a hall the floor is nearer.
+  constexpr int kFarPart_mm = 3000, kFarMedian_mm = 7000;
+  constexpr double kMetresPerMillimetre = 1e-3;
+  const Spread spread = MeasureSpread(count_);
+  const bool is_far = spread.readings >= kEnoughReadings && spread.percent_5 > kFarPart_mm &&
+                      spread.median > kFarMedian_mm;
+  return is_far ? std::optional(kMetresPerMillimetre * spread.median) : std::nullopt;
+}
+
 }  // namespace ossa::depth

@@ -27,6 +27,9 @@ class DepthCensus {
   bool IsEnough() const;
   /// None if they can be millimetres, or without enough data.
   std::optional<DepthSuspicion> Judge() const;
+  /// Whether nearly all lies farther away than people before a depth camera stand, as of fifths or
+  /// quarters of a millimetre: some cameras measure so far, and the median is returned, metres.
+  std::optional<double> FindFarMedian_m() const;
 
  private:
   std::vector<int64_t> count_ = std::vector<int64_t>(65536, 0);  // histogram of values

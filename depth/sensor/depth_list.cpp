@@ -27,13 +27,25 @@ std::string_view TakeWord(std::string_view& line) {
   return word;
 }
 
+// A file's name without quotes around it, and with the separators of this system.
+std::string PathOf(std::string_view text) {
+  constexpr std::string_view kAround = " \t\r,\"";
+  const size_t begin = std::min(text.find_first_not_of(kAround), text.size());
+  text.remove_prefix(begin);
+  std::string path(text.substr(0, text.find_last_not_of(kAround) + 1));
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return path;
+}
+
 std::optional<DepthList::Entry> ParseEntry(std::string_view line) {
-  const std::string_view time = TakeWord(line), file = TakeWord(line);
+  const std::string_view time = TakeWord(line);
+  const std::string rest = PathOf(line);
+  const std::string file = PathOf(TakeWord(line));
   double time_s = 0.0;
   const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), time_s);
   const bool whole = error == std::errc() && end == time.data() + time.size();
   if (!whole || !std::isfinite(time_s) || file.empty()) return std::nullopt;
-  return DepthList::Entry{time_s, std::string(file), 0};
+  return DepthList::Entry{time_s, file, rest, 0};
 }
 
 // Converts times to seconds from the first entry.
@@ -79,6 +91,9 @@ DepthList ReadDepthList(const fs::path& folder) {
   std::ifstream file = OpenFile(path);
   if (!file) throw InputError(path.string() + ": cannot be read");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    throw InputError(path.string() + ": expected text in UTF-8, found UTF-16: save it as UTF-8");
+  }
   return ParseDepthList(text);
 }
 

@@ -11,7 +11,8 @@ namespace ossa::depth {
 struct DepthList {
   struct Entry {
     double time_s = 0.0;  // since the first entry
-    std::string file;     // relative to the list's folder
+    std::string file;     // relative to the list's folder, up to the first blank,
+    std::string rest;     // ... and to the line's end: names may have blanks
     int line = 0;         // from 1
   };
   std::vector<Entry> entries;  // in order of time
@@ -22,7 +23,7 @@ struct DepthList {
 DepthList ParseDepthList(std::string_view text);
 
 /// Reads the list in a folder; without entries if there is none, or the file is something else.
-/// Throws InputError if it cannot be read.
+/// Throws InputError if it cannot be read, or is in UTF-16.
 DepthList ReadDepthList(const std::filesystem::path& folder);
 
 }  // namespace ossa::depth

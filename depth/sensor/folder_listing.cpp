@@ -195,12 +195,19 @@ struct FrameList {
   }
 };
 
+fs::path FileOf(const fs::path& place, const DepthList::Entry& entry) {
+  std::error_code none;
+  const fs::path whole = (place / entry.rest).lexically_normal();
+  const bool has_blanks = entry.rest != entry.file && fs::is_regular_file(whole, none);
+  return has_blanks ? whole : (place / entry.file).lexically_normal();
+}
+
 // Reads the list in `place`, of images anywhere or only of those in the folder `only`.
 FrameList ReadFrameList(const fs::path& place, const std::optional<fs::path>& only) {
   DepthList list = ReadDepthList(place);
   FrameList found{place / "depth.txt", {}, {}, std::move(list.bad_lines), list.unit_s};
   for (const DepthList::Entry& entry : list.entries) {
-    const fs::path path = (place / entry.file).lexically_normal();
+    const fs::path path = FileOf(place, entry);
     if (only && path.parent_path() != *only) continue;
     if (found.frames.empty()) {
       found.first = "line " + std::to_string(entry.line) + ": '" + entry.file + "'";
@@ -238,7 +245,12 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
     const std::string what =
         list.file.string() + ": expected seconds and files that are there, found " + list.first;
     if (!has_images) throw InputError(what);
-    if (options.note) options.note(NoteKind::kInfo, what + " and the like: passed over");
+    // With a list of images the frames lose their times.
+    const bool has_times = IsPngName(list.frames.front().path);
+    if (options.note) {
+      options.note(has_times ? NoteKind::kWarning : NoteKind::kInfo,
+                   what + " and the like: passed over");
+    }
   }
   return {};
 }

@@ -49,7 +49,7 @@ class FrameSource {
 
 enum class NoteKind {
   kInfo,     // an assumption, or something ignored
-  kWarning,  // data that were lost
+  kWarning,  // data that were lost, or an assumption that is probably wrong
 };
 
 /// Encoding of 16-bit depth images that do not state it.

@@ -89,7 +89,8 @@ const char* DescribeConversion(const std::filesystem::path& file) {
       How{".npy", kArray},  How{".npz", kArray}, How{".mat", kArray},  How{".h5", kArray},
       How{".hdf5", kArray}, How{".pkl", kArray}, How{".raw", kRaw},    How{".bin", kRaw},
       How{".exr", kFloats}, How{".ply", kCloud}, How{".pcd", kCloud},  How{".svo", kZed},
-      How{".svo2", kZed},   How{".sens", kSens}, How{".klg", kKlg}};
+      How{".svo2", kZed},   How{".sens", kSens}, How{".klg", kKlg},    How{".pfm", kFloats},
+      How{".jp2", kImage}};
   const auto found = std::find_if(
       kHow.begin(), kHow.end(),
       [extension = LowerCaseExtension(file)](const auto& how) { return how.first == extension; });

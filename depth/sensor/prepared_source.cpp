@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <deque>
 #include <exception>
+#include <functional>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -17,7 +20,7 @@ class PreparedSource final : public FrameSource {
  public:
   PreparedSource(std::string name, std::unique_ptr<FrameSource> source,
                  const SourceOptions& options)
-      : name_(std::move(name)), source_(std::move(source)), fps_(options.fps) {
+      : name_(std::move(name)), source_(std::move(source)), fps_(options.fps), note_(options.note) {
     const DepthCoding coding{options.depth_format, options.depth_scale.value_or(1000.0),
                              options.inverted_from};
     if (!coding.IsMillimetres()) table_ = MillimetreTable(coding);
@@ -32,7 +35,7 @@ class PreparedSource final : public FrameSource {
       damage_ = std::current_exception();
     }
     const auto suspicion = census.Judge();
-    if (!suspicion) return;
+    if (!suspicion) return WarnOfFarDepths(census);
     const std::string reads =
         suspicion->option.empty() ? "" : suspicion->option + " reads them so; ";
     throw InputError(name_ + ": expected depths in millimetres, found what looks like " +
@@ -53,6 +56,17 @@ class PreparedSource final : public FrameSource {
   std::optional<int64_t> frame_count() const override { return source_->frame_count(); }
 
  private:
+  void WarnOfFarDepths(const DepthCensus& census) const {
+    const auto median_m = census.FindFarMedian_m();
+    if (!median_m || !note_) return;
+    std::ostringstream text;
+    text << name_ << ": as millimetres half of the depths lie beyond " << std::setprecision(2)
+         << *median_m
+         << " m, where nobody is tracked: if they are fifths of a millimetre (Orbbec), "
+            "--depth-scale 5000; quarters, 4000; tenths, 10000";
+    note_(NoteKind::kWarning, text.str());
+  }
+
   // Examines the first non-empty frames. Constants: by hand, 0.1 s and 1 s at 30 Hz.
   void LookAhead(DepthCensus& census) {
     constexpr size_t kEnoughFrames = 3, kMostFrames = 30;
@@ -84,6 +98,7 @@ class PreparedSource final : public FrameSource {
   std::string name_;
   std::unique_ptr<FrameSource> source_;
   std::optional<double> fps_;
+  std::function<void(NoteKind, const std::string&)> note_;  // may be empty
   std::vector<uint16_t> table_;  // millimetres of each value; empty: identity
   std::deque<ReadResult> ahead_;
   std::exception_ptr damage_;  // thrown after these frames

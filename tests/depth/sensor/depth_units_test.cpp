@@ -396,6 +396,27 @@ TEST(DepthUnits, RefusesSuspectDepthsAndNamesTheOption) {
   EXPECT_EQ(raw.frame.depth_mm[5000], centimetres.depth_mm[5000]);
 }
 
+// Quarters of a millimetre as a sensor gives them, with all remainders: some cameras see as far.
+TEST(DepthUnits, WarnsOfDepthsBeyondPeople) {
+  const test::TemporaryFolder folder;
+  int number = 0;
+  const DepthFrame quarters = Changed([&](int mm) { return mm == 0 ? 0 : 4 * mm + number++ % 4; });
+  WriteDepthPng(folder / "0.png", quarters.view());
+  std::vector<std::string> warnings;
+  SourceOptions options;
+  options.note = [&](NoteKind kind, const std::string& text) {
+    if (kind == NoteKind::kWarning) warnings.push_back(text);
+  };
+  OpenSource(folder.path().string(), options);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("fifths of a millimetre (Orbbec), --depth-scale 5000"),
+            std::string::npos)
+      << warnings[0];
+  options.depth_scale = 4000;
+  OpenSource(folder.path().string(), options);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
 TEST(DepthUnits, DoesNotSuspectRealSensors) {
   const auto real = test::SharedFolder() / "real";
   if (!std::filesystem::is_directory(real)) GTEST_SKIP() << "not here: " << real;

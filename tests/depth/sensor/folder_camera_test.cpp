@@ -32,6 +32,20 @@ TEST(FolderSource, CameraIsTheOptionElseCameraJsonElseBySize) {
   EXPECT_THROW(OpenSource(folder.path().string()), InputError);
 }
 
+// A guess without a known image size is hardly right, and is told even where notes are not.
+TEST(FolderSource, WarnsOfACameraAssumedForAnUnknownImageSize) {
+  const TemporaryFolder folder;
+  SourceOptions options;
+  std::vector<NoteKind> kinds;
+  options.note = [&](NoteKind kind, const std::string&) { kinds.push_back(kind); };
+  for (const auto& [width, height] : {std::pair{640, 400}, std::pair{160, 120}}) {
+    const Image<uint16_t> image(width, height, 1000);
+    WriteDepthPng(folder / "0.png", {image.data.data(), width, height, width});
+    OpenSource(folder.path().string(), options);
+  }
+  EXPECT_EQ(kinds, (std::vector{NoteKind::kWarning, NoteKind::kInfo}));
+}
+
 TEST(FolderSource, UnmirrorsImagesAndTheirCamera) {
   const TemporaryFolder folder;
   Image<uint16_t> image(8, 6, 1000);

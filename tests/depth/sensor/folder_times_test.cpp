@@ -77,6 +77,21 @@ TEST(FolderSource, ReadsTimesFromDepthTxt) {
   }
 }
 
+TEST(FolderSource, DepthTxtMayNameFilesAsWindowsDoesAndWithBlanks) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "depth");
+  for (const char* name : {"depth/take 1.png", "depth/take 2.png"}) WriteFrame(folder / name, 7);
+  const std::string source = folder.path().string();
+  for (const char* list : {"5.0 depth/take 1.png\n5.2 depth/take 2.png\n",
+                           "5.0,\"depth\\take 1.png\"\r\n5.2,\"depth\\take 2.png\"\r\n"}) {
+    std::ofstream(folder / "depth.txt") << list;
+    EXPECT_NEAR(TimesOf(*OpenSource(source)).at(1), 0.2, 1e-9) << list;
+  }
+  std::ofstream(folder / "depth.txt") << "\xFF\xFE"
+                                      << "5";
+  test::ExpectRefused([&] { OpenSource(source); }, "found UTF-16: save it as UTF-8");
+}
+
 // As from a program that dumps a matrix.
 TEST(FolderSource, IgnoresAForeignDepthTxtWithANote) {
   const TemporaryFolder folder;

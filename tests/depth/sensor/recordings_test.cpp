@@ -82,7 +82,8 @@ TEST(OtherRecordings, AreRefusedWithAWayToConvertThem) {
       {"a.xef", "KinectXEFTools"},  {"a.MP4", "ffmpeg"},         {"a.mcap", "rosbags-convert"},
       {"a.TIFF", "mogrify"},        {"a.npy", "ossa.Tracker"},   {"a.h5", "ossa.Tracker"},
       {"a.exr", "of floats"},       {"a.bin", "numpy.fromfile"}, {"a.PLY", "a cloud of points"},
-      {"a.svo2", "ZED_SVO_Export"}, {"a.sens", "reader.py"},     {"a.klg", "ElasticFusion"}};
+      {"a.svo2", "ZED_SVO_Export"}, {"a.sens", "reader.py"},     {"a.klg", "ElasticFusion"},
+      {"a.pfm", "floats"},          {"a.jp2", "ImageMagick"}};
   for (const auto& each : cases) {
     const auto path = folder / each.first;
     std::ofstream(path) << "x";
