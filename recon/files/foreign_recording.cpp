@@ -12,6 +12,8 @@ constexpr std::string_view kJsonl =
 constexpr std::string_view kNamed =
     "write it as ossa's JSONL, or as a table of lines FRAME JOINT x y z (docs/files.md, 'Tables of "
     "named joints')";
+constexpr std::string_view kLines =
+    "write an object a frame, each on a line of its own (jq -c '.[]' of an array, jq -c . else)";
 constexpr std::string_view kFlat =
     "they lie in the image, ossa reads joints in metres: track the depth images instead";
 
@@ -39,6 +41,13 @@ constexpr ForeignRecording kForeign[] = {
     {"a NumPy array", kJsonl, true, {"\x93numpy", ""}},
     {"a Python pickle (SMPL's parameters are such)", kJsonl, true, {"\x80", ""}},
     {"a MATLAB file", kJsonl, true, {"matlab 5.0 mat-file", ""}},
+    {"an OpenSim table (MOT or STO)",
+     "export its markers as TRC",
+     false,
+     {"endheader", "ncolumns="}},
+    {"a JSON array of frames", kLines, true, {"[", "\"bodies\""}},
+    {"JSON over several lines", kLines, true, {"{\n", "\"bodies\""}},
+    {"JSON over several lines", kLines, true, {"{\r\n", "\"bodies\""}},
     {"an HDF5 file", kJsonl, true, {"\x89hdf", ""}},
     {"glTF", "ossa writes it; write .jsonl beside it to read it again", true, {"gltf", ""}},
     {"2D key points (OpenPose)", kFlat, false, {"pose_keypoints_2d", ""}},

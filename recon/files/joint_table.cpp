@@ -47,15 +47,27 @@ bool AreWhole(const std::vector<TableFrame>& frames) {
                      [](const TableFrame& m) { return m.at == std::floor(m.at); });
 }
 
-/// Seconds per unit of the time column.
-double SecondsPerUnit(const RowClock& clock, const std::vector<TableFrame>& frames, double frame_s,
+/// Whether the time column counts frames: by its header, or integers that grow by one or two.
+bool CountsFrames(const RowClock& clock, const std::vector<TableFrame>& frames) {
+  constexpr double kLongestFrames = 2.0;  // frames, by hand
+  return clock.counts_frames ||
+         (!clock.is_stated && AreWhole(frames) && MedianStep(frames) <= kLongestFrames);
+}
+
+/// The number of the first frame of a recording, which is at time 0. A table may also begin later.
+double FirstNumber(const std::vector<TableFrame>& frames, SkeletonSequence& sequence) {
+  if (frames.front().at != 1.0) return 0.0;
+  sequence.warnings.push_back(sequence.source +
+                              ": its first frame is number 1: frames are counted from there");
+  return 1.0;
+}
+
+/// Seconds per unit of a time column.
+double SecondsPerUnit(const RowClock& clock, const std::vector<TableFrame>& frames,
                       SkeletonSequence& sequence) {
-  // By hand: recordings have at least one frame in two seconds; integers that grow by one or two
-  // are frame numbers.
-  constexpr double kLongestStep_s = 2.0, kLongestFrames = 2.0, kSecondsPerMillisecond = 1e-3;
+  // By hand: recordings have at least one frame in two seconds.
+  constexpr double kLongestStep_s = 2.0, kSecondsPerMillisecond = 1e-3;
   const double step = MedianStep(frames);
-  const bool are_frames = !clock.is_stated && AreWhole(frames) && step <= kLongestFrames;
-  if (clock.counts_frames || are_frames) return frame_s;
   if (clock.s_per_unit) return *clock.s_per_unit;
   if (step <= kLongestStep_s) return 1.0;
   if (step > kLongestStep_s / kSecondsPerMillisecond) {
@@ -191,11 +203,13 @@ SkeletonSequence MakeSequence(const SkeletonInput& input, const JointTable& tabl
   if (table.frames().empty()) RequireFrames(sequence);
   const auto bodies =
       FindPointBodies(table.labels(), input.mapping, {input.name, "joints"}, sequence.warnings);
-  const double s_per_unit =
-      SecondsPerUnit(columns.time, table.frames(), input.FrameTime_s(kKinectStep_s), sequence);
+  const bool counts = CountsFrames(columns.time, table.frames());
+  const double first = counts ? FirstNumber(table.frames(), sequence) : 0.0;
+  const double s_per_unit = counts ? input.FrameTime_s(kKinectStep_s)
+                                   : SecondsPerUnit(columns.time, table.frames(), sequence);
   for (const TableFrame& row : table.frames()) {
     SkeletonFrame frame = MakeTableFrame(table, row, bodies, sequence.frames.size());
-    frame.time_s *= s_per_unit;
+    frame.time_s = (frame.time_s - first) * s_per_unit;
     if (columns.body) LeaveOutAbsent(frame);
     sequence.frames.push_back(std::move(frame));
   }

@@ -108,6 +108,7 @@ SkeletonSequence ReadAzure(SkeletonInput& input) {
   if (!frames.is_array()) Fail(input, "frames", "a list");
   SkeletonSequence sequence{input.name, {}};
   std::optional<double> first;
+  bool has_orientations = false;
   for (size_t f = 0; f < frames.size(); ++f) {
     const std::string where = fmt::format("frame {}", f);
     const Json& time = Need(input, frames[f], "timestamp_usec", where);
@@ -120,10 +121,18 @@ SkeletonSequence ReadAzure(SkeletonInput& input) {
     frame.time_s = time_s - *first;
     const Json& bodies = Need(input, frames[f], "bodies", where);
     if (!bodies.is_array()) Fail(input, where, "a list of bodies");
-    for (const Json& body : bodies) frame.bodies.push_back(ParseBody(input, body, joints, where));
+    for (const Json& body : bodies) {
+      frame.bodies.push_back(ParseBody(input, body, joints, where));
+      has_orientations = has_orientations || !body.value("joint_orientations", Json()).empty();
+    }
     sequence.frames.push_back(std::move(frame));
   }
   RequireFrames(sequence);
+  if (has_orientations) {
+    sequence.warnings.push_back(
+        input.name +
+        ": joint_orientations are not read: their axes are Azure Kinect's, not the Kinect SDK 1's");
+  }
   return sequence;
 }
 

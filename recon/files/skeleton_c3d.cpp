@@ -141,6 +141,15 @@ Parameter ReadParameter(const std::string& name, std::string_view bytes, size_t 
   return parameter;
 }
 
+// Names are the same in any case; most programs write capitals.
+std::string UpperCase(std::string_view name) {
+  std::string upper(name);
+  for (char& c : upper) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return upper;
+}
+
 // Walks the records: name length, group id, name, offset to the next record; parameters (positive
 // ids) then have their values. A group's name may follow its parameters.
 Parameters ReadParameters(const std::string& name, const C3dBytes& numbers) {
@@ -154,7 +163,7 @@ Parameters ReadParameters(const std::string& name, const C3dBytes& numbers) {
     const int id = static_cast<int8_t>(bytes[at + 1]);
     if (name_length == 0 || id == 0) break;
     NeedBytes(name, bytes, at, 2 + name_length + 2, "a parameter's name");
-    const std::string key(bytes.substr(at + 2, name_length));
+    const std::string key = UpperCase(bytes.substr(at + 2, name_length));
     const size_t next_at = at + 2 + name_length;
     const size_t next = numbers.Word(next_at);
     if (id < 0) groups[-id] = key;

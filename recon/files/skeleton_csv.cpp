@@ -114,7 +114,7 @@ std::string SkeletonCsvRows(const SkeletonFrame& frame) {
 SkeletonSequence ReadSkeletonCsv(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);
   lines.Expect("a header line");
-  const CsvFields csv(lines.line());
+  CsvFields csv(lines.line());
   if (ReadCsvHeader(lines.line()) != ReadCsvHeader(MakeHeader())) {
     lines.Fail("ossa's own header", lines.line());
   }

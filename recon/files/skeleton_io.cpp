@@ -170,6 +170,9 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   if (const std::string unlikely = DescribeUnlikelyUnit(sequence); !unlikely.empty()) {
     sequence.warnings.push_back(input.name + ": " + unlikely);
   }
+  if (const std::string unlikely = DescribeUnlikelyTimes(sequence); !unlikely.empty()) {
+    sequence.warnings.push_back(input.name + ": " + unlikely);
+  }
   if (options.frame_s > 0 && StatesOtherTimes(sequence, options.frame_s)) {
     sequence.warnings.push_back(
         input.name + ": its frames have times of its own: the frame rate given is not used");

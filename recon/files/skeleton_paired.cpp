@@ -74,7 +74,7 @@ SkeletonSequence ReadPaired(SkeletonInput& input, const PairedFormat& format) {
   const std::string prefix = ChoosePrefix(input, format);
   TextLines lines(input.stream, input.name);
   lines.Expect("a header line");
-  const CsvFields csv(lines.line());
+  CsvFields csv(lines.line());
   const std::vector<std::string> header = ReadCsvHeader(lines.line());
   const auto columns = FindColumns(lines, header, prefix);
   SkeletonSequence sequence{input.name, {}};

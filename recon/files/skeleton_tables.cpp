@@ -20,7 +20,7 @@ class FieldsOf {
   explicit FieldsOf(std::string_view first)
       : csv_(first), has_separators_(first.find_first_of(",;\t") != std::string_view::npos) {}
 
-  std::vector<std::string> operator()(std::string_view line) const {
+  std::vector<std::string> operator()(std::string_view line) {
     if (has_separators_) return csv_.SplitRow(line, kFewest);
     const auto words = Words(line);
     return {words.begin(), words.end()};
@@ -79,7 +79,7 @@ bool IsJointLine(const std::vector<std::string>& fields) {
 bool AreJointLines(const SkeletonSample& sample) {
   constexpr size_t kEnough = 3;  // lines, by hand
   if (sample.lines.size() < 2) return false;
-  const FieldsOf fields_of(sample.lines[0]);
+  FieldsOf fields_of(sample.lines[0]);
   if (FindLineColumns(fields_of(sample.lines[0]))) return true;
   const size_t lines = std::min(kEnough, sample.lines.size());
   return std::all_of(sample.lines.begin(), sample.lines.begin() + static_cast<long>(lines),
@@ -108,7 +108,7 @@ void TakeJointLine(const TextLines& lines, const std::vector<std::string>& field
 SkeletonSequence ReadJointLines(SkeletonInput& input) {
   TextLines lines(input.stream, input.name);
   lines.Expect(kLine);
-  const FieldsOf fields_of(lines.line());
+  FieldsOf fields_of(lines.line());
   const auto header = FindLineColumns(fields_of(lines.line()));
   LineColumns columns = header.value_or(LineColumns{});
   if (!header) {
@@ -185,7 +185,7 @@ SkeletonSequence ReadJointColumns(SkeletonInput& input) {
   constexpr std::string_view kHeader = "a header of columns NAME_x NAME_y NAME_z";
   TextLines lines(input.stream, input.name);
   lines.Expect(kHeader);
-  const CsvFields csv(lines.line());
+  CsvFields csv(lines.line());
   const auto names = ReadCsvHeader(lines.line());
   const auto joints = FindJointColumns(names);
   if (joints.empty()) lines.Fail(kHeader, lines.line());

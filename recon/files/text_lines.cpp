@@ -103,7 +103,10 @@ double NumberIn(const TextLines& lines, std::string_view field, std::string_view
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
-    lines.Fail("a finite number for " + std::string(what), field);
+    const bool has_comma = field.find(',') != field.npos;
+    lines.Fail("a finite number for " + std::string(what) +
+                   (has_comma ? ", with a decimal point and no comma between thousands" : ""),
+               field);
   }
   return value;
 }

@@ -51,4 +51,19 @@ std::string DescribeUnlikelyUnit(const SkeletonSequence& sequence) {
       *limb_m);
 }
 
+std::string DescribeUnlikelyTimes(const SkeletonSequence& sequence) {
+  // Seconds, by hand: nobody records a movement so slowly, and no laboratory so fast.
+  constexpr double kLongest_s = 2.5, kShortest_s = 2e-4;
+  constexpr size_t kEnough = 5;  // by hand: of fewer steps the median may be a pause
+  std::vector<double> steps_s;
+  for (size_t f = 1; f < sequence.frames.size(); ++f) {
+    steps_s.push_back(sequence.frames[f].time_s - sequence.frames[f - 1].time_s);
+  }
+  if (steps_s.size() < kEnough) return {};
+  const double step_s = Median(std::move(steps_s));
+  if (step_s == 0.0 || (step_s >= kShortest_s && step_s <= kLongest_s)) return {};
+  return fmt::format("its frames are {:.3g} s apart: are its times in another unit than seconds?",
+                     step_s);
+}
+
 }  // namespace ossa::recon

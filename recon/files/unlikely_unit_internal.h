@@ -14,4 +14,8 @@ std::optional<double> MedianLimb(const SkeletonSequence& sequence);
 /// Without it, people a thousand times too large would be read silently.
 std::string DescribeUnlikelyUnit(const SkeletonSequence& sequence);
 
+/// A warning if the frames are so far apart, or so close, that their times cannot be seconds; "" if
+/// they can. Filters and methods would take every frame for a new recording.
+std::string DescribeUnlikelyTimes(const SkeletonSequence& sequence);
+
 }  // namespace ossa::recon

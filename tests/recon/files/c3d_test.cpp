@@ -114,6 +114,17 @@ TEST(C3dLabels, MayBeFilledWithZeros) {
   EXPECT_TRUE(read.frames[0].bodies[0].joints[Index(Joint::kHead)].has_value());
 }
 
+TEST(C3dParameters, HaveNamesInAnyCase) {
+  std::string bytes = C3dBytes();
+  for (const auto& [capitals, small] :
+       {std::pair{"LABELS", "Labels"}, {"UNITS", "units"}, {"POINT", "Point"}}) {
+    bytes.replace(bytes.find(capitals), std::string(capitals).size(), small);
+  }
+  EXPECT_LT(
+      (At(ReadText(bytes), 0, Joint::kHead) - At(ReadText(C3dBytes()), 0, Joint::kHead)).norm(),
+      1e-12);
+}
+
 TEST(C3dRate, ComesFromTheParametersIfTheHeaderHasNone) {
   std::string bytes = C3dBytes();
   Put<float>(bytes, 20, 0.0f);

@@ -7,6 +7,7 @@
 
 #include "tests/recon/files/skeleton_examples.h"
 #include "tests/recon/files/skeleton_texts.h"
+#include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ossa::recon {
@@ -131,6 +132,35 @@ TEST(JointTables, MillimetresAndCentimetresAreRecognisedByTheLimbsWithANote) {
   }
   EXPECT_TRUE(
       Tells(ReadText(ReplacedAll(kJointColumns, "KneeLeft", "FootLeft")), "taken as metres"));
+}
+
+TEST(JointTables, CountedFromOneBeginAtTimeZero) {
+  const auto read = ReadText(ReplacedAll(ReplacedAll(kJointLines, "\n1 ", "\n2 "), "0 ", "1 "));
+  EXPECT_EQ(read.frames.at(0).time_s, 0.0);
+  EXPECT_NEAR(read.frames.at(1).time_s, 1.0 / 30.0, 1e-12);
+  EXPECT_TRUE(Tells(read, "its first frame is number 1"));
+}
+
+// A row of joints in millimetres; commas between thousands must not become decimal points.
+TEST(JointTables, WithCommasBetweenThousandsAreRefused) {
+  const std::string header =
+      "time_ms,Head_x,Head_y,Head_z,HipLeft_x,HipLeft_y,HipLeft_z,KneeLeft_x,KneeLeft_y,KneeLeft_"
+      "z\n";
+  for (const char* row : {"0,100,800,\"2,051\",100,200,\"2,000\",100,-200,\"2,000\"\n",
+                          "0.5,100,800,\"2,051\",100,200,\"2,000\",100,-200,\"2,000\"\n"}) {
+    test::ExpectRefused([&] { ReadText(header + row); }, "no comma between thousands");
+  }
+}
+
+TEST(JointTables, WithDecimalCommasAreReadWhateverTheNumbers) {
+  const std::string text =
+      "time;Head_x;Head_y;Head_z;HipLeft_x;HipLeft_y;HipLeft_z;KneeLeft_x;KneeLeft_y;KneeLeft_z\n"
+      "0,25;0,1;0,8;2;0,1;0,2;2;0,1;-0,2;2\n"
+      "0,5;1,100;2,800;2,051;1,100;2,200;2,000;1,100;1,800;2,000\n";
+  for (const std::string& table : {text, ReplacedAll(text, ";", "\t")}) {
+    const auto read = ReadText(table);
+    EXPECT_LT((At(read, 1, Joint::kHead) - Eigen::Vector3d(1.1, 2.8, 2.051)).norm(), 1e-12);
+  }
 }
 
 TEST(JointTables, SeveralPeopleHaveTheirOwnJoints) {

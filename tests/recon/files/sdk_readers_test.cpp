@@ -225,6 +225,15 @@ TEST(AzureKinect, ConvertsAxesAndMillimetres) {
   EXPECT_NEAR(read.frames[1].time_s, 0.033333, kExact);
 }
 
+TEST(AzureKinect, WarnsThatOrientationsAreNotRead) {
+  EXPECT_TRUE(Read(AzureText()).warnings.empty());
+  const auto read =
+      Read(ReplacedAll(AzureText(), "_orientations\":[]", "_orientations\":[[1,0,0,0]]"));
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].find("joint_orientations are not read"), std::string::npos)
+      << read.warnings[0];
+}
+
 TEST(KinectStreamSaver, ReadsOnlyTrackedSkeletons) {
   const auto read = Read(SaverBytes(3));
   ASSERT_EQ(read.frames.size(), 3u);
