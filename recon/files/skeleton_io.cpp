@@ -13,6 +13,7 @@
 #include "depth/base/naming_the_file.h"
 #include "recon/files/archive_bytes_internal.h"
 #include "recon/files/foreign_recording_internal.h"
+#include "recon/files/mirrored_body_internal.h"
 #include "recon/files/reading_internal.h"
 #include "recon/files/recording_names_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
@@ -167,11 +168,9 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   CheckBodies(sequence, input.name);
   CheckPlaces(sequence, input.name);
   CheckTimes(sequence, input.name);
-  if (const std::string unlikely = DescribeUnlikelyUnit(sequence); !unlikely.empty()) {
-    sequence.warnings.push_back(input.name + ": " + unlikely);
-  }
-  if (const std::string unlikely = DescribeUnlikelyTimes(sequence); !unlikely.empty()) {
-    sequence.warnings.push_back(input.name + ": " + unlikely);
+  for (const auto& describe : {DescribeUnlikelyUnit, DescribeUnlikelyTimes, DescribeMirrored}) {
+    const std::string unlikely = describe(sequence);
+    if (!unlikely.empty()) sequence.warnings.push_back(input.name + ": " + unlikely);
   }
   if (options.frame_s > 0 && StatesOtherTimes(sequence, options.frame_s)) {
     sequence.warnings.push_back(

@@ -125,6 +125,12 @@ TEST(SharedCaseOf, NanInATrcIsMissing) {
   EXPECT_LT(FarthestApart_m(read, base), kTrc_m);
 }
 
+std::string Joined(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += warning + "\n";
+  return text;
+}
+
 TEST(SharedCaseOf, NtuWithNanOrAWrongCountKeepsValidData) {
   if (!std::filesystem::exists(Cases())) GTEST_SKIP() << "no " << Cases();
   const auto nan = ReadSkeletons(Cases() / "ntu/nan_joints.skeleton");
@@ -135,10 +141,10 @@ TEST(SharedCaseOf, NtuWithNanOrAWrongCountKeepsValidData) {
   EXPECT_LT(CountJoints(nan), 40u * kJointCount);
   EXPECT_GT(CountJoints(nan), 40u * kJointCount * 9 / 10);
   EXPECT_EQ(FarthestApart_m(nan, more), 0.0);
-  ASSERT_EQ(nan.warnings.size(), 1u);
-  EXPECT_NE(nan.warnings[0].find("are NaN"), std::string::npos);
-  ASSERT_EQ(more.warnings.size(), 1u);
-  EXPECT_NE(more.warnings[0].find("counts 52 frames, the file has 40"), std::string::npos);
+  EXPECT_NE(Joined(nan.warnings).find("are NaN"), std::string::npos);
+  EXPECT_NE(Joined(more.warnings).find("counts 52 frames, the file has 40"), std::string::npos);
+  // The made-up motion was put into camera space by turning z alone: its person is a mirror image.
+  EXPECT_NE(Joined(nan.warnings).find("bend backwards"), std::string::npos);
 }
 
 }  // namespace
