@@ -215,6 +215,7 @@ SkeletonSequence MakeSequence(const SkeletonInput& input, const JointTable& tabl
   }
   RemoveEmptyBodies(sequence);
   Scale(sequence, MetresOfUnit(sequence));
+  TurnFromImageAxes(sequence);
   RotateUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
   return sequence;
 }

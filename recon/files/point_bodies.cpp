@@ -124,6 +124,20 @@ PointBody FindMarkers(const Subject& subject) {
   return body;
 }
 
+// JOINT_LEFT_ELBOW of NiTE and Nuitrack, K4ABT_JOINT_NECK, JointType_Head: without what all labels
+// begin with.
+Subject WithoutCommonBeginning(Subject subject) {
+  std::string_view common = subject.labels.front();
+  for (const std::string& label : subject.labels) {
+    const auto differ = std::mismatch(common.begin(), common.end(), label.begin(), label.end());
+    common = common.substr(0, static_cast<size_t>(differ.first - common.begin()));
+  }
+  const size_t end = common.find_last_of("_.- ");
+  const size_t length = end == common.npos ? 0 : end + 1;
+  for (std::string& label : subject.labels) label.erase(0, length);
+  return subject;
+}
+
 PointBody FindBody(const Subject& subject, const BoneMapping* mapping, const LabelPlace& place,
                    std::vector<std::string>& others) {
   if (mapping != nullptr) {
@@ -132,7 +146,8 @@ PointBody FindBody(const Subject& subject, const BoneMapping* mapping, const Lab
   }
   PointBody body = FindJointsByName(subject, false, others);
   if (!HasJoints(body)) body = FindMarkers(subject);
-  return HasJoints(body) ? body : FindJointsByName(subject, true, others);
+  if (!HasJoints(body)) body = FindJointsByName(subject, true, others);
+  return HasJoints(body) ? body : FindJointsByName(WithoutCommonBeginning(subject), false, others);
 }
 
 std::string ListLabels(const std::vector<std::string>& labels) {
@@ -297,6 +312,14 @@ void RotateUpright(SkeletonSequence& sequence, const AlternativeUpAxis& other) {
     sequence.warnings.push_back(fmt::format("{}: the body stands along {}: {} is taken as up",
                                             sequence.source, other.name, other.name));
   }
+}
+
+void TurnFromImageAxes(SkeletonSequence& sequence) {
+  if (!IsUpright(ComputeMeanTrunk(sequence), -Eigen::Vector3d::UnitY())) return;
+  TurnAll(sequence, Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0));  // half a turn about z
+  sequence.warnings.push_back(sequence.source +
+                              ": the body stands along -y: the axes are taken as an image's, x to "
+                              "the right and y down");
 }
 
 std::optional<double> MetresPerUnit(std::string_view unit) {

@@ -28,8 +28,9 @@ struct LabelPlace {
 };
 
 /// The people in a list of point labels: by the mapping if it names any label; else by joint names;
-/// else by Plug-in Gait markers. Subjects ("Ann:LKnee", "Bob:LKnee") are separate people. Throws
-/// InputError that lists the labels if none is known. Oddities go to `warnings`.
+/// else by Plug-in Gait markers; else by joint names without what all labels begin with. Subjects
+/// ("Ann:LKnee", "Bob:LKnee") are separate people. Throws InputError that lists the labels if none
+/// is known. Oddities go to `warnings`.
 std::vector<PointBody> FindPointBodies(const std::vector<std::string>& labels,
                                        const BoneMapping* mapping, const LabelPlace& place,
                                        std::vector<std::string>& warnings);
@@ -49,6 +50,10 @@ struct AlternativeUpAxis {
 /// warning) if people stand along that axis on a floor at 0 and there is no floor at y = 0, unless
 /// they stand along y. Warns if nobody ever stands.
 void RotateUpright(SkeletonSequence& sequence, const AlternativeUpAxis& other);
+
+/// Turns people who stand along -y by half a turn about z, with a warning: the axes of an image, x
+/// to the right and y down, as Azure Kinect and OpenCV have them, become those of camera space.
+void TurnFromImageAxes(SkeletonSequence& sequence);
 
 /// Metres per length unit (mm, MM, cm, meters, ...); none for an unknown word.
 std::optional<double> MetresPerUnit(std::string_view unit);

@@ -170,15 +170,17 @@ std::vector<NamedColumns> FindJointColumns(const std::vector<std::string>& names
 }
 
 // Whether these are joint columns. Network key points are recognised by their noses; their axes and
-// origins differ.
+// origins differ. Azure Kinect has a nose, too, and a spine.
 bool AreJointColumns(const SkeletonSample& sample) {
   constexpr size_t kEnough = 3;  // joints, by hand
   if (sample.lines.empty()) return false;
   const auto names = ReadCsvHeader(sample.lines[0]);
-  return FindJointColumns(names).size() >= kEnough &&
-         std::none_of(names.begin(), names.end(), [](const std::string& name) {
-           return PlainName(name).find("nose") != std::string::npos;
-         });
+  const auto has = [&](std::string_view part) {
+    return std::any_of(names.begin(), names.end(), [part](const std::string& name) {
+      return PlainName(name).find(part) != std::string::npos;
+    });
+  };
+  return FindJointColumns(names).size() >= kEnough && (!has("nose") || has("spinenavel"));
 }
 
 SkeletonSequence ReadJointColumns(SkeletonInput& input) {

@@ -141,6 +141,30 @@ TEST(JointTables, CountedFromOneBeginAtTimeZero) {
   EXPECT_TRUE(Tells(read, "its first frame is number 1"));
 }
 
+/// kJointColumns' people under other names, turned by half a turn about z.
+TEST(JointTables, OfAzureKinectAreTurnedFromTheImagesAxes) {
+  std::string text = "time_ms";
+  for (const char* joint : {"PELVIS", "SPINE_NAVEL", "HEAD", "NOSE", "HIP_LEFT", "KNEE_LEFT"}) {
+    for (const char* axis : {"_x", "_y", "_z"}) text += std::string(",K4ABT_JOINT_") + joint + axis;
+  }
+  text += "\n40,-100,-200,2000,-100,-400,2000,-100,-800,2000,0,0,0,-100,-100,2000,-100,300,2000\n";
+  const auto read = ReadText(text);
+  EXPECT_LT((At(read, 0, Joint::kHead) - Eigen::Vector3d(0.1, 0.8, 2)).norm(), 1e-12);
+  EXPECT_LT((At(read, 0, Joint::kKneeLeft) - Eigen::Vector3d(0.1, -0.3, 2)).norm(), 1e-12);
+  EXPECT_TRUE(Tells(read, "the axes are taken as an image's"));
+}
+
+TEST(JointTables, HaveNamesWithACommonBeginning) {
+  std::string text = kJointLines;
+  for (const auto& [plain, of_nite] : {std::pair{"SpineBase", "JOINT_SPINE_BASE"},
+                                       {"HIPLEFT", "JOINT_LEFT_HIP"},
+                                       {"knee_left", "JOINT_LEFT_KNEE"},
+                                       {"Head", "JOINT_HEAD"}}) {
+    text = ReplacedAll(text, plain, of_nite);
+  }
+  ExpectLeg(ReadText(text));
+}
+
 // A row of joints in millimetres; commas between thousands must not become decimal points.
 TEST(JointTables, WithCommasBetweenThousandsAreRefused) {
   const std::string header =
