@@ -12,6 +12,7 @@ constexpr std::string_view kJsonl =
 constexpr std::string_view kNamed =
     "write it as ossa's JSONL, or as a table of lines FRAME JOINT x y z (docs/files.md, 'Tables of "
     "named joints')";
+constexpr std::string_view kUnpack = "unpack it, or pack it as .zip, .tar.gz or .gz";
 constexpr std::string_view kLines =
     "write an object a frame, each on a line of its own (jq -c '.[]' of an array, jq -c . else)";
 constexpr std::string_view kFlat =
@@ -48,6 +49,16 @@ constexpr ForeignRecording kForeign[] = {
     {"a JSON array of frames", kLines, true, {"[", "\"bodies\""}},
     {"JSON over several lines", kLines, true, {"{\n", "\"bodies\""}},
     {"JSON over several lines", kLines, true, {"{\r\n", "\"bodies\""}},
+    {"a packed file (xz)",
+     kUnpack,
+     true,
+     {"\xFD"
+      "7zxz",
+      ""}},
+    {"a packed file (bzip2)", kUnpack, true, {"bzh", "1ay&sy"}},
+    {"a packed file (zstd)", kUnpack, true, {"\x28\xB5\x2F\xFD", ""}},
+    {"a packed file (7z)", kUnpack, true, {"7z\xBC\xAF", ""}},
+    {"a packed file (RAR)", kUnpack, true, {"rar!\x1A", ""}},
     {"an HDF5 file", kJsonl, true, {"\x89hdf", ""}},
     {"glTF", "ossa writes it; write .jsonl beside it to read it again", true, {"gltf", ""}},
     {"2D key points (OpenPose)", kFlat, false, {"pose_keypoints_2d", ""}},

@@ -60,8 +60,12 @@ std::vector<RecordingPlace> Matching(const std::vector<RecordingPlace>& places,
 }  // namespace
 
 bool IsIgnoredFile(const std::filesystem::path& path) {
-  static const std::set<std::string> kOther = {".md", ".png", ".jpg", ".mp4", ".avi", ".html",
-                                               ".py", ".m",   ".pdf", ".yml", ".toml"};
+  static const std::set<std::string> kOther = {
+      ".md",   ".html", ".pdf", ".docx", ".pptx", ".py",  ".ipynb", ".m",
+      ".sh",   ".bat",  ".yml", ".yaml", ".toml", ".png", ".jpg",   ".jpeg",
+      ".bmp",  ".gif",  ".tif", ".tiff", ".mp4",  ".avi", ".mov",   ".mkv",
+      ".webm", ".wav",  ".mp3", ".bag",  ".oni",  ".log",  // and of file managers:
+      ".db",   ".ini",  ".lnk", ".url"};
   const std::string name = path.filename().string();
   for (const char* word : {"README", "LICENSE", "ORIGINAL_", "INDEX.", "PROVENANCE", "manifest.",
                            "camera.json", "SHA256"}) {

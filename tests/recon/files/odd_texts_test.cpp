@@ -245,6 +245,17 @@ INSTANTIATE_TEST_SUITE_P(
         Foreign{"Named", R"([{"SpineBase":[0.1,0.2,2.0],"SpineMid":[0.1,0.5,2.0]}])",
                 "joints by name: write it as ossa's JSONL"},
         Foreign{"Pickle", "\x80\x04\x95 poses", "a Python pickle"},
+        Foreign{"Xz",
+                "\xFD"
+                "7zXZ\0\0\x04",
+                "a packed file (xz): unpack it"},
+        Foreign{"Mot",
+                "Coordinates\nversion=1\nnRows=2\nnColumns=3\nendheader\ntime\tpelvis_tilt\n",
+                "an OpenSim table (MOT or STO): export its markers as TRC"},
+        Foreign{"JsonArray", R"([{"frame":0,"time_s":0,"bodies":[]}])",
+                "a JSON array of frames: write an object a frame"},
+        Foreign{"PrettyJson", "{\n \"frame\": 0,\n \"bodies\": []\n}\n",
+                "JSON over several lines: write an object a frame"},
         Foreign{"Array", "\x93NUMPY\x01", "a NumPy array: write"},
         Foreign{"Unknown", "plain words\n", "'plain words'"}),
     [](const auto& info) { return std::string(info.param.name); });

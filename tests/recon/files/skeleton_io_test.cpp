@@ -150,7 +150,9 @@ TEST(SkeletonClips, FoldersAreSortedByNameAndSkipOtherFiles) {
   std::filesystem::create_directory(folder / "b");
   WriteSkeletons(folder / "b/two.jsonl", ExampleSequence(2));
   WriteSkeletons(folder / "a.csv", ExampleSequence(3));
-  std::ofstream(folder / "README.txt") << "words";
+  for (const char* other : {"README.txt", "Thumbs.db", "desktop.ini", "colour.mkv", "take.oni"}) {
+    std::ofstream(folder / other) << "words";
+  }
   const auto clips = ReadSkeletonClips(folder.path());
   ASSERT_EQ(clips.size(), 2u);
   EXPECT_EQ(clips[0].name, "a");
