@@ -148,6 +148,21 @@ def test_learn_writes_a_file_that_reconstruct_reads(truth, seen, tmp_path):
     assert np.abs(made.joints - ossa.reconstruct(seen, learned="none").joints).max() > 1e-6
 
 
+def test_learn_logs_that_a_clock_is_not_the_truths(tmp_path, caplog):
+    """Joints that swing at uneven intervals, and the same half a second later."""
+    times = np.arange(240) / 30
+    phase = np.cumsum(0.1 + 0.08 * np.sin(times))
+
+    def swinging(phase):
+        joints = np.repeat(two_people().joints[:1], len(phase), axis=0)
+        joints[:, ::2, 0] += 0.2 * np.sin(phase)[:, None]
+        return joints
+
+    late = ossa.Sequence(times[:-15], swinging(phase[15:]))
+    ossa.learn(late, ossa.Sequence(times, swinging(phase)), tmp_path / "x.ossagp", correction_only=True)
+    assert any("added to its times" in record.getMessage() for record in caplog.records)
+
+
 def test_learned_methods_need_their_file(seen):
     with pytest.raises(ossa.InputError, match="learned: expected the .ossagp file"):
         ossa.reconstruct(seen, "liu-2016")

@@ -40,6 +40,14 @@ def test_track_writes_the_same_bytes_as_the_command(method, clip, command, tmp_p
     assert (tmp_path / "python.jsonl").read_bytes() == (tmp_path / "command.jsonl").read_bytes()
 
 
+def test_times_in_milliseconds_are_logged_once(images, models, caplog):
+    tracker = ossa.Tracker(models=models, fit=False)
+    for depth_mm, camera, time_s in images:
+        tracker.track(depth_mm, camera, 1000 * time_s)
+    [warning] = caplog.records
+    assert "are they milliseconds?" in warning.getMessage()
+
+
 def test_tracker_warns_of_a_refinement_of_another_forest(command, tmp_path, caplog):
     # The smallest training there is, at the shipped forest's joints.
     command("render", "--mocap", "authored", "--out", tmp_path / "people", "--frames", "150",
