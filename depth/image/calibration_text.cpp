@@ -5,10 +5,12 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
 #include "depth/base/error.h"
+#include "depth/base/lower_case.h"
 
 namespace ossa::depth {
 namespace {
@@ -146,7 +148,41 @@ std::optional<std::vector<double>> FindMatrix(std::string_view text, const std::
   return numbers;
 }
 
+// A line `Camera.fx: 525.0`, `fx = 525` or `fx 525`: the name behind its last point, lower case,
+// and the number.
+std::optional<std::pair<std::string, double>> ReadNamedNumber(std::string_view line) {
+  constexpr std::string_view kAround = " \t\r\"'", kEnds = " \t:=\"'";
+  line.remove_prefix(std::min(line.find_first_not_of(kAround), line.size()));
+  std::string_view name = line.substr(0, line.find_first_of(kEnds));
+  line.remove_prefix(name.size());
+  line.remove_prefix(std::min(line.find_first_not_of(kEnds), line.size()));
+  name = name.substr(name.rfind('.') + 1);
+  const std::vector<double> numbers = ReadNumbers(line);
+  if (name.empty() || numbers.size() != 1) return std::nullopt;
+  return std::pair{LowerCase(name), numbers.front()};
+}
+
 }  // namespace
+
+std::optional<Calibration> ReadNamedNumbers(const std::string& text, const std::string& name) {
+  std::map<std::string, double> named;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    if (auto number = ReadNamedNumber(std::string_view(text).substr(begin, end - begin))) {
+      named.insert(std::move(*number));  // of several cameras the first
+    }
+    begin = end + 1;
+  }
+  for (const char* needed : {"fx", "fy", "cx", "cy"}) {
+    if (!named.contains(needed)) return std::nullopt;
+  }
+  Calibration found;
+  found.matrix = {named["fx"], 0, named["cx"], 0, named["fy"], named["cy"], 0, 0, 1};
+  found.width = SideOf(Value(text, {"Camera.width", "width"}), name);
+  found.height = SideOf(Value(text, {"Camera.height", "height"}), name);
+  for (const char* term : {"k1", "k2", "p1", "p2", "k3"}) found.distortion.push_back(named[term]);
+  return found;
+}
 
 std::optional<Calibration> ReadBareMatrix(const std::string& text) {
   if (text.find_first_not_of("0123456789+-.eE \t\r\n,;[]") != text.npos) return std::nullopt;

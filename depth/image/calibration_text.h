@@ -28,6 +28,11 @@ std::optional<Calibration> FindCalibration(const std::string& text, const std::s
 /// ScanNet), as numpy.savetxt writes it, or of nine followed by others; nullopt for other texts.
 std::optional<Calibration> ReadBareMatrix(const std::string& text);
 
+/// The calibration of a text that names fx, fy, cx and cy, a line each, as ORB-SLAM's settings
+/// (`Camera.fx: 525.0`) and own programs' (`fx = 525`), with k1 k2 p1 p2 k3 where it names them;
+/// nullopt for other texts. Throws InputError, starting with `name`, for a size that is none.
+std::optional<Calibration> ReadNamedNumbers(const std::string& text, const std::string& name);
+
 /// Largest displacement of an image corner by the distortion, pixels; if the size is not stated it
 /// is twice the principal point. NaN for models other than OpenCV's.
 double ComputeCornerShift(const Calibration& calibration);

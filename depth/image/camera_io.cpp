@@ -34,6 +34,8 @@ std::string ReadText(const std::filesystem::path& path) {
   std::string text(static_cast<size_t>(file.tellg()), '\0');
   file.seekg(0);
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // added by editors on Windows
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   return text;
 }
 
@@ -169,8 +171,11 @@ CameraChoice ReadCameraFile(const std::filesystem::path& path) {
   if (const auto calibration = FindCalibration(text, name)) return ChoiceOf(*calibration, name);
   if (LowerCaseExtension(path) == ".json") return CameraFromJson(text, name);
   if (const auto matrix = ReadBareMatrix(text)) return ChoiceOf(*matrix, name);
-  throw InputError(name +
-                   ": expected a camera_matrix, as OpenCV and ROS write it, or its numbers alone");
+  if (const auto named = ReadNamedNumbers(text, name)) return ChoiceOf(*named, name);
+  throw InputError(
+      name +
+      ": expected a camera_matrix, as OpenCV and ROS write it, or its numbers alone, or "
+      "fx, fy, cx and cy by name");
 }
 
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera) {

@@ -162,6 +162,17 @@ void ReportCamera(const std::string& source, const Camera& images, const SourceO
                                        ": it was stretched to them and is hardly theirs");
 }
 
+// Intrinsics in another unit than pixels, such as shares of the width, are valid numbers.
+void WarnOfFieldOfView(const std::string& source, const Camera& camera,
+                       const SourceOptions& options) {
+  constexpr double kWidest = 0.2, kNarrowest = 10.0;  // f / longer side, by hand: 136 and 6 degrees
+  const double share = camera.fx / std::max(camera.width, camera.height);
+  if (!options.note || (share > kWidest && share < kNarrowest)) return;
+  options.note(NoteKind::kWarning, source + ": no depth camera has f " + ShortText(camera.fx) +
+                                       " px at " + SizeText(camera) +
+                                       ": are its intrinsics in pixels, and of these images?");
+}
+
 std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceOptions& options) {
   if (source.starts_with(kDevicePrefix)) {
     // OpenNI2 treats a file as a device and plays it repeatedly, with wrong times.
@@ -205,6 +216,7 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   options.Check();
   auto opened = OpenByName(source, options);
   ReportCamera(source, opened->camera(), options);
+  WarnOfFieldOfView(source, opened->camera(), options);
   return options.mirrored ? UnmirroredSource(std::move(opened)) : std::move(opened);
 }
 

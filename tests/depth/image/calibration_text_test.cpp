@@ -200,6 +200,32 @@ TEST_F(CameraFile, MayBeAMatrixOfNumbersOnly) {
   EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40}));
   test::ExpectRefused([&] { ParseCamera(Write("a.txt", "100 110\n")); },
                       "a.txt: expected a camera_m");
+  const CameraChoice marked = ParseCamera(Write("b.txt",
+                                                "\xEF\xBB\xBF"
+                                                "100 0 30\n0 110 40\n0 0 1\n"));
+  EXPECT_EQ(marked.camera.fx, 100);
+}
+
+TEST_F(CameraFile, MayNameTheFourNumbers) {
+  for (const char* text :
+       {"%YAML:1.0\nCamera.fx: 100.0\nCamera.fy: 110.0\nCamera.cx: 30.0\nCamera.cy: 40.0\n"
+        "Camera.k1: 0.0\nDepthMapFactor: 5000.0\n",
+        "fx = 100\r\nfy = 110\r\ncx = 30\r\ncy = 40\r\n",
+        "\xEF\xBB\xBF"
+        "fx 100\nfy 110\ncx 30\ncy 40",
+        "name = my camera 2\nFX: 100\nFY: 110\nCX: 30\nCY: 40\nfx: 7\n"}) {
+    const CameraChoice choice = ParseCamera(Write("k.yaml", text));
+    EXPECT_EQ(CameraForSize(choice, 64, 48), (Camera{64, 48, 100, 110, 30, 40})) << text;
+    EXPECT_EQ(choice.unheeded, "") << text;
+  }
+  test::ExpectRefused([&] { ParseCamera(Write("k.yaml", "fx: 100\nfy: 110\ncx: 30\n")); },
+                      "fx, fy, cx and cy by name");
+  const CameraChoice bent =
+      ParseCamera(Write("k.yaml",
+                        "Camera.fx: 100\nCamera.fy: 110\nCamera.cx: 30\nCamera.cy: 40\n"
+                        "Camera.k1: 0.3\nCamera.width: 64\nCamera.height: 48\n"));
+  EXPECT_EQ(bent.camera, (Camera{64, 48, 100, 110, 30, 40}));
+  EXPECT_NE(bent.unheeded.find("the lens moves"), std::string::npos) << bent.unheeded;
 }
 
 TEST_F(CameraFile, MayHaveAnyExtensionAndFurtherNumbers) {

@@ -46,6 +46,20 @@ TEST(FolderSource, WarnsOfACameraAssumedForAnUnknownImageSize) {
   EXPECT_EQ(kinds, (std::vector{NoteKind::kWarning, NoteKind::kInfo}));
 }
 
+TEST(FolderSource, WarnsOfIntrinsicsThatAreNotInPixels) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1, 64, 48);
+  for (const auto& [camera, is_told] : {std::pair{"0.9,1.2,0.5,0.5", true},
+                                        {"5750,5750,320,240", true},
+                                        {"57.5,57.5,32,24", false}}) {
+    Notes notes;
+    SourceOptions options = notes.Options();
+    options.camera = ParseCamera(camera);
+    OpenSource(folder.path().string(), options);
+    EXPECT_EQ(notes.Tell("no depth camera has f"), is_told) << camera << notes.text;
+  }
+}
+
 TEST(FolderSource, UnmirrorsImagesAndTheirCamera) {
   const TemporaryFolder folder;
   Image<uint16_t> image(8, 6, 1000);
