@@ -153,7 +153,7 @@ RecordedPair FoundFrom(size_t first, size_t frames) {
   return pair;
 }
 
-TEST(RecordingSimulatorTest, BeginsWithTheFirstFrameInWhichThePersonIsFound) {
+TEST(SimulatedRecording, BeginsWithTheFirstFrameInWhichThePersonIsFound) {
   RecordedPair pair = FoundFrom(2, 5);
   BeginWhenFound(pair);
   ASSERT_EQ(pair.observed.frames.size(), 3u);
@@ -162,7 +162,7 @@ TEST(RecordingSimulatorTest, BeginsWithTheFirstFrameInWhichThePersonIsFound) {
   EXPECT_EQ(pair.truth.frames[0].frame, 2);
 }
 
-TEST(RecordingSimulatorTest, IsEmptyWhereThePersonIsNeverFound) {
+TEST(SimulatedRecording, IsEmptyWhereThePersonIsNeverFound) {
   RecordedPair pair = FoundFrom(5, 5);
   BeginWhenFound(pair);
   EXPECT_TRUE(pair.observed.frames.empty());
