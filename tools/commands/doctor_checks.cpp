@@ -117,7 +117,7 @@ std::string DescribeRemedy(const UsbDevice& device) {
   if (access(device.node.c_str(), R_OK | W_OK) == 0) return {};
   const char* group = device.known.way == Way::kPrimeSense ? "video" : "plugdev";
   return fmt::format(
-      "this user may not open {}: sudo usermod -aG {} $USER, log in anew, and plug "
+      "this user may not open {}: sudo usermod -aG {} $USER, log in again, and plug "
       "it in again",
       device.node.string(), group);
 }
@@ -185,7 +185,7 @@ std::vector<Finding> CheckDrivers() {
     }
     files.push_back(folder / "libOpenNI2.so.0");
   } catch (const std::exception& error) {
-    return {{OnOneLine(error.what()), "install ossa anew"}};
+    return {{OnOneLine(error.what()), "reinstall ossa"}};
   }
   std::sort(files.begin(), files.end());
   std::vector<Finding> findings;
@@ -200,7 +200,7 @@ std::vector<Finding> CheckModels() {
       read();
     } catch (const InputError& error) {
       findings.push_back(
-          {OnOneLine(error.what()), "install ossa anew, or name the folder in OSSA_SHARE"});
+          {OnOneLine(error.what()), "reinstall ossa, or name the folder in OSSA_SHARE"});
     }
   }
   if (!findings.empty()) return findings;

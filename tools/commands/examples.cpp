@@ -105,7 +105,7 @@ constexpr CommandExamples kExamples[] = {
      {{{"ossa render --mocap authored --out data --frames 10000 --view any",
         "a data set to train on"},
        {"ossa render --mocap authored --out clip --frames 90 --sequence",
-        "a clip of somebody who moves"},
+        "a clip of a moving person"},
        {"mpirun -np 4 ossa render --mocap cmu --out data --frames 50000",
         "four processes share the work"}}}},
 };

@@ -141,8 +141,8 @@ std::vector<std::string> FindDataUsedTwice(const TrainArguments& a) {
                       [&](const fs::path& d) { return fs::equivalent(d, other); });
       if (!is_trained_on) continue;
       warnings.push_back(fmt::format(
-          "{} {}: the trees are grown on it, too: what is learned there expects more of them than "
-          "they can do on other images",
+          "{} {}: the trees are grown on it, too: the trees are more accurate there than on other "
+          "images, and what is learned from it is too optimistic",
           option, other.string()));
     }
   };
@@ -211,9 +211,9 @@ int RelearnProposals(const TrainArguments& a) {
 void PrintCheckpoint(const TrainArguments& a) {
   const bool is_there = fs::exists(a.checkpoint());
   if (a.quiet || is_there == a.options.resume) return;
-  const char* what = is_there ? "left by a run that was cut off; without --resume this one begins "
-                                "anew and replaces it"
-                              : "not there: nothing to go on from, this run begins anew";
+  const char* what = is_there ? "left by an interrupted run; without --resume this one starts over "
+                                "and replaces it"
+                              : "not there: nothing to resume, this run starts over";
   PrintError(fmt::format("train: {}: {}\n", a.checkpoint().string(), what));
 }
 

@@ -202,7 +202,7 @@ TEST_F(TrainingRuns, ReportPresentAndMissingCheckpoints) {
   EXPECT_NE(RunOssa(words).err.find("new.ossa.checkpoint: not there"), std::string::npos);
   std::ofstream(folder_ / "new.ossa.checkpoint") << "of another run";
   std::erase(words, "--resume");
-  EXPECT_NE(RunOssa(words).err.find("new.ossa.checkpoint: left by a run that was cut off"),
+  EXPECT_NE(RunOssa(words).err.find("new.ossa.checkpoint: left by an interrupted run"),
             std::string::npos);
 }
 
