@@ -1,6 +1,7 @@
 #include "depth/sensor/frame_names.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include "depth/base/lower_case.h"
 #include "depth/base/statistics.h"
+#include "depth/sensor/clock_names.h"
 
 // Constants: by hand, chosen to separate clock units in file names: the steps of depth cameras, 5
 // ms to 2 s, do not overlap between units.
@@ -141,6 +143,13 @@ std::optional<double> GuessUnitOfNumbers(int64_t step, size_t digits) {
   return unit_s == 1e-9 && digits < kNanosecondsSince1970 ? std::nullopt : unit_s;
 }
 
+// Whether these are integers as long as milli-, micro- or nanoseconds since 1970.
+bool AreEpochs(const std::vector<NumberedName>& names) {
+  constexpr std::array<size_t, 3> kDigits = {13, 16, 19};  // from 2001 to 2286
+  return !names.empty() && names.front().fraction.empty() &&
+         std::find(kDigits.begin(), kDigits.end(), names.front().whole.size()) != kDigits.end();
+}
+
 bool SaysFrame(std::string_view before) {
   return LowerCase(before).find("frame") != std::string::npos;
 }
@@ -229,6 +238,12 @@ NamedTimes ReadTimesFromFractions(const std::vector<NumberedName>& names) {
   std::vector<double> ordered = times.times_s;
   std::sort(ordered.begin(), ordered.end());
   if (!AreDecimals(names) && ordered != times.times_s) return {};
+  const auto unit_s = ordered.size() < 2 ? std::nullopt : GuessTimeUnit(MedianStep(ordered));
+  if (unit_s) {
+    times.unit_s = *unit_s;
+    for (double& time_s : times.times_s) time_s *= *unit_s;
+    return times;
+  }
   const bool is_cameras = ordered.size() < 2 || MedianStep(ordered) >= kLeastStep_s;
   return is_cameras ? times : count;
 }
@@ -277,6 +292,8 @@ std::string StripNumbers(std::string_view stem) {
 
 NamedTimes ReadTimesFromNames(const std::vector<std::string>& stems) {
   const std::vector<NumberedName> names = FindLastNumbers(stems);
+  auto times_s = AreEpochs(names) ? std::nullopt : ReadTimesFromClocks(stems);
+  if (times_s) return {NamedTimes::Kind::kTimes, {}, std::move(*times_s)};
   if (names.empty()) return {};
   return names.front().fraction.empty() ? ReadTimesFromWholes(names)
                                         : ReadTimesFromFractions(names);

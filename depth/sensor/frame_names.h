@@ -27,7 +27,8 @@ struct NamedTimes {
 };
 
 /// Names in natural order, which differs from time order for seconds without trailing zeros (0.1
-/// comes before 0.033). Numbers with a fraction are seconds, except for a word with a number
+/// comes before 0.033). Clocks are read first (clock_names.h). Numbers with a fraction are seconds,
+/// or a smaller unit if that gives a plausible frame rate, except for a word with a number
 /// followed by a count (take2.0033). Integers are frame numbers if their steps are small; otherwise
 /// milliseconds, microseconds or nanoseconds if that gives a plausible frame rate; else only their
 /// order is used.
