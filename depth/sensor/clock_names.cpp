@@ -27,7 +27,7 @@ int64_t WholeOf(const std::ssub_match& digits) {
 // Nanoseconds of a fraction with `digits` digits: 5 of up to 3 digits are 5 ms, with or without
 // zeros before it.
 int64_t FractionOf_ns(const std::ssub_match& fraction, size_t digits) {
-  constexpr size_t kMilli = 3, kMicro = 6;
+  constexpr size_t kMilli = 3, kMicro = 6;  // digits, by definition
   const int64_t unit_ns = digits <= kMilli ? 1'000'000 : digits <= kMicro ? 1'000 : 1;
   return WholeOf(fraction) * unit_ns;
 }
@@ -48,7 +48,7 @@ int64_t ReadDate_ns(const std::smatch& m, size_t digits) {
   const year_month_day date(year(static_cast<int>(WholeOf(m[2]))),
                             month(static_cast<unsigned>(WholeOf(m[3]))),
                             day(static_cast<unsigned>(WholeOf(m[4]))));
-  constexpr int64_t kDay_s = 86400;
+  constexpr int64_t kDay_s = 86400;  // by definition
   const int64_t days = sys_days(date).time_since_epoch().count();
   const int64_t whole_s = days * kDay_s + TimeOfDay_s(m[5], m[6], m[7]);
   return whole_s * kNanosecondsPerSecond + FractionOf_ns(m[8], digits);
@@ -63,7 +63,7 @@ int64_t ReadSecondsAndFraction_ns(const std::smatch& m, size_t digits) {
 }
 
 int64_t ReadEpoch_ns(const std::smatch& m, size_t digits) {
-  constexpr size_t kMilliseconds = 13, kMicroseconds = 16;
+  constexpr size_t kMilliseconds = 13, kMicroseconds = 16;  // digits, by definition until 2286
   const int64_t unit_ns = digits == kMilliseconds ? 1'000'000 : digits == kMicroseconds ? 1'000 : 1;
   return WholeOf(m[2]) * unit_ns;
 }

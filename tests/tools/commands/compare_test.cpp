@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -141,6 +142,30 @@ TEST_F(CompareCommand, NamesTheOffsetOfAResultThatBeganLaterWithTheSameFrameTime
       << run.out;
   run = RunOssa({"compare", first, late, "--time", "correlate"});
   EXPECT_EQ(run.out.find("added to its times"), std::string::npos) << run.out;
+}
+
+// Arms that swing in opposite phase: half a period later they are their mirror image, nearly.
+recon::SkeletonSequence WalkingFrom(double begin_s) {
+  recon::SkeletonSequence sequence = SwingingFrom(0.0);
+  for (auto& frame : sequence.frames) {
+    const double t_s = begin_s + frame.time_s;
+    const double swing_rad = 0.8 * std::sin(4.0 * t_s + 0.3 * std::sin(t_s));
+    const auto posture =
+        recon::test::InFrontOfCamera(recon::test::Gesture(0.9 + swing_rad, 0.9 - swing_rad, 0.3));
+    for (size_t j = 0; j < recon::kJointCount; ++j) {
+      frame.bodies[0].joints[j]->position_m = posture.position_m[j];
+    }
+  }
+  return sequence;
+}
+
+TEST_F(CompareCommand, NamesTheClockWhereAMirrorIsNearButTheClockIsNearer) {
+  const std::string first = folder_ / "first.jsonl", late = folder_ / "late.jsonl";
+  recon::WriteSkeletons(first, WalkingFrom(0.0));
+  recon::WriteSkeletons(late, WalkingFrom(0.8));
+  const auto run = RunOssa({"compare", first, late});
+  EXPECT_NE(run.out.find("+0.80 s added to its times"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("--mirrored"), std::string::npos) << run.out;
 }
 
 TEST_F(CompareCommand, ReadsTruthAndEstimateFromOneFileThatHoldsBoth) {

@@ -21,18 +21,25 @@ bool IsFarNearer(const std::optional<double>& other_cm, const std::optional<doub
   return other_cm && error_cm && *error_cm >= kLeast_cm && *other_cm <= kFarNearer * *error_cm;
 }
 
+// With the error that is left if it is followed.
+struct Advice {
+  std::string text;
+  double error_cm = 0.0;
+};
+
 // For each clip: a folder may contain mirrored clips and others.
-std::string AdviseOnMirroring(const ComparedResult& result) {
+std::optional<Advice> AdviseOnMirroring(const ComparedResult& result) {
   for (const PairedTracks& pair : result.pairs) {
     const auto error_cm = Measure(pair).parent_relative_error_cm;
     const auto mirrored_cm = MirroredRelativeError_cm(pair);
     if (!IsFarNearer(mirrored_cm, error_cm)) continue;
-    return fmt::format(
-        "{} is far nearer to the truth as a mirror shows it (parent-relative error {:.1f} instead "
-        "of {:.1f} cm): if its depth images were mirrored, track them with --mirrored.",
-        result.label, *mirrored_cm, *error_cm);
+    return Advice{fmt::format("{} is far nearer to the truth as a mirror shows it (parent-relative "
+                              "error {:.1f} instead of {:.1f} cm): if its depth images were "
+                              "mirrored, track them with --mirrored.",
+                              result.label, *mirrored_cm, *error_cm),
+                  *mirrored_cm};
   }
-  return "";
+  return std::nullopt;
 }
 
 // The beginning of a pair, long enough to compare clocks and short enough to search quickly.
@@ -63,13 +70,13 @@ PairedTracks AtOffset(const PairedTracks& pair, double offset_s) {
   return moved;
 }
 
-std::string AdviseOnClock(const ComparedResult& result) {
+std::optional<Advice> AdviseOnClock(const ComparedResult& result) {
   const auto found = FindClockDifference(result.pairs);
-  if (!found) return "";
-  return fmt::format(
-      "{} is far nearer to the truth {}: if their clocks differ, add --time "
-      "correlate.",
-      result.label, Describe(*found));
+  if (!found) return std::nullopt;
+  return Advice{fmt::format("{} is far nearer to the truth {}: if their clocks differ, add --time "
+                            "correlate.",
+                            result.label, Describe(*found)),
+                found->moved_cm};
 }
 
 std::string AdviseOnOrigin(const ComparedResult& result) {
@@ -112,10 +119,11 @@ std::string Describe(const ClockDifference& clock) {
 std::string MakeAdvice(const Comparison& comparison) {
   for (const ComparedResult& result : comparison.results) {
     const bool same_space = !comparison.rigid;
-    if (std::string mirrored = same_space ? AdviseOnMirroring(result) : ""; !mirrored.empty()) {
-      return mirrored;
-    }
-    if (std::string clock = AdviseOnClock(result); !clock.empty()) return clock;
+    const auto mirrored = same_space ? AdviseOnMirroring(result) : std::nullopt;
+    const auto clock = AdviseOnClock(result);
+    // A symmetrical movement half its period off is nearer as a mirror shows it, too.
+    if (mirrored && !(clock && clock->error_cm < mirrored->error_cm)) return mirrored->text;
+    if (clock) return clock->text;
     if (std::string origin = same_space ? AdviseOnOrigin(result) : ""; !origin.empty()) {
       return origin;
     }
