@@ -88,6 +88,12 @@ size_t CountDecimalPlaces(std::string_view number) {
   return point == std::string_view::npos ? 0 : number.size() - point - 1;
 }
 
+// Motion Analysis' programs write 9999999 for coordinates that were not seen.
+bool IsNoPlace(const Eigen::Vector3d& place) {
+  constexpr double kNoPlace = 99999.0;  // no unit, by hand: nobody is as far along all axes
+  return place.x() >= kNoPlace && place.x() == place.y() && place.y() == place.z();
+}
+
 // Rows of a TRC: frame number, time, then x y z of each marker.
 class TrcRows {
  public:
@@ -123,6 +129,7 @@ class TrcRows {
         return column + i < fields_.size() ? fields_[column + i] : std::string_view();
       };
       points[m] = PlaceIn(lines_, {field(0), field(1), field(2)}, "a marker");
+      if (points[m] && IsNoPlace(*points[m])) points[m].reset();
       if (points[m]) *points[m] *= metres_per_unit_;
     }
     return points;
@@ -158,6 +165,31 @@ class TrcRows {
   size_t decimals_ = 0;  // decimals of the previous row, if uniform
 };
 
+using RowPoints = std::vector<std::vector<SeenPoint>>;  // [row][marker]
+
+// Whether a marker that is at the origin in all rows is the root of skeletons relative to it.
+bool IsRoot(const RowPoints& rows, size_t marker) {
+  constexpr double kNear_m = 1.5;  // anthropometry: of all joints of somebody about their hips
+  double farthest_m = 0.0;
+  for (const auto& points : rows) {
+    if (!points[marker] || !points[marker]->isZero(0.0)) return false;
+    for (const SeenPoint& other : points) {
+      if (other) farthest_m = std::max(farthest_m, other->norm());
+    }
+  }
+  return farthest_m < kNear_m;
+}
+
+// Programs write the origin for markers that were not seen, as in C3D.
+void RemoveUnseenAtOrigin(RowPoints& rows, size_t markers) {
+  for (size_t m = 0; m < markers; ++m) {
+    if (IsRoot(rows, m)) continue;
+    for (auto& points : rows) {
+      if (points[m] && points[m]->isZero(0.0)) points[m].reset();
+    }
+  }
+}
+
 // Times of another unit than seconds pass for a recording of another length.
 void WarnOfOtherRate(const TrcHeader& header, SkeletonSequence& sequence) {
   constexpr double kFar = 10.0;  // a ratio, by hand: programs thin out rows and leave the DataRate
@@ -184,10 +216,16 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
   ReadColumnNames(lines);
   TrcRows rows(lines, header.markers, header.metres_per_unit);
   RowTimes times;
+  std::vector<double> times_s;
+  RowPoints points;
   while (rows.Next()) {
-    const double time_s = rows.ReadTime_s();
-    times.Take(lines, time_s);
-    sequence.frames.push_back(MakeFrame(bodies, rows.ReadPoints(), sequence.frames.size(), time_s));
+    times_s.push_back(rows.ReadTime_s());
+    times.Take(lines, times_s.back());
+    points.push_back(rows.ReadPoints());
+  }
+  RemoveUnseenAtOrigin(points, header.markers);
+  for (size_t f = 0; f < points.size(); ++f) {
+    sequence.frames.push_back(MakeFrame(bodies, points[f], f, times_s[f]));
   }
   RequireFrames(sequence);
   if (header.frames && sequence.frames.size() != *header.frames) {

@@ -82,6 +82,25 @@ TEST(Trc, NanInAnySpellingIsMissing) {
   }
 }
 
+TEST(Trc, TheOriginAndMotionAnalysissNumberAreBlanks) {
+  for (const char* unseen : {"0.00\t0.00\t0.00\n", "9999999.00\t9999999.00\t9999999.00\n"}) {
+    const auto read = ReadText(ReplacedAll(kTrc, "0.00\t1600.00\t2.75\n", unseen));
+    EXPECT_FALSE(read.frames[2].bodies[0].joints[Index(Joint::kHead)]) << unseen;
+    EXPECT_TRUE(read.frames[1].bodies[0].joints[Index(Joint::kHead)]) << unseen;
+  }
+}
+
+// Skeletons relative to a joint have it at the origin in every row; far from the others it is none.
+TEST(Trc, APointAtTheOriginInAllRowsIsOneIfTheOthersAreAroundIt) {
+  std::string at_origin = ReplacedAll(kTrc, "0.00\t1600.00\t20.00\n", "0.00\t0.00\t0.00\n");
+  at_origin = ReplacedAll(at_origin, "0.00\t1600.00\t2.75\n", "0.00\t0.00\t0.00\n");
+  const auto has_head = [](const SkeletonSequence& read) {
+    return read.frames[1].bodies[0].joints[Index(Joint::kHead)].has_value();
+  };
+  EXPECT_TRUE(has_head(ReadText(at_origin)));
+  EXPECT_FALSE(has_head(ReadText(ReplacedAll(at_origin, "\t500.25", "\t2500.25"))));
+}
+
 TEST(Trc, WrongRowCountKeepsTheRowsWithAWarning) {
   for (const char* said : {"\t2\t2\tmm", "\t9\t2\tmm"}) {
     const auto read = ReadText(ReplacedAll(kTrc, "\t3\t2\tmm", said));
