@@ -162,7 +162,11 @@ std::optional<Detection> TryMergeBySamePose(const ClassificationInput& input, co
       Classify(input, MergeCandidates(input.scene, input.frame, (a_first ? a : b).candidate,
                                       (a_first ? b : a).candidate));
   ApplyPoseNetwork(input, whole);
-  if (!PassesByPose(whole, initiation)) return {};
+  if (!IsVerifiedByPose(whole)) return {};
+  // Each of the two shows this person, so that together they are no less certain than alone.
+  const double least = std::max(a.evidence.score, b.evidence.score);
+  whole.evidence.score = std::max(whole.evidence.score, least);
+  whole.score = std::max(whole.score, least);
   return whole;
 }
 
