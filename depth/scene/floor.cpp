@@ -39,11 +39,11 @@ bool OnPlane(const Vector4f& plane, const Vector3f& p) {
   return off_m < MostTolerance(p) && off_m < Tolerance(plane, p);
 }
 
-// A measurement, and the direction of the surface there up the image: unit, or zero at depth
-// discontinuities.
+// A measurement, and the directions of the surface from there up and down the image: unit, or zero
+// where nothing is measured.
 struct Measured {
   Vector3f at_m;
-  Vector3f up_image;
+  Vector3f up_image, down_image;
 };
 
 // Whether the surface runs along the plane. An oblique plane between floor and wall has the edges
@@ -51,7 +51,8 @@ struct Measured {
 // surface runs along it.
 bool RunsAlong(const Vector4f& plane, const Measured& p) {
   constexpr float kMostSine = 0.7F;  // by hand, of 45 degrees
-  return std::abs(plane.head<3>().dot(p.up_image)) < kMostSine;
+  return std::abs(plane.head<3>().dot(p.up_image)) < kMostSine &&
+         std::abs(plane.head<3>().dot(p.down_image)) < kMostSine;
 }
 
 struct Fit {
@@ -100,7 +101,7 @@ Vector4f Refine(const std::vector<Measured>& points, const Vector4f& plane,
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> inliers;
   for (const Measured& p : points) {
-    if (!OnPlane(plane, p.at_m)) continue;
+    if (!OnPlane(plane, p.at_m) || !RunsAlong(plane, p)) continue;
     inliers.push_back(p.at_m.cast<double>());
     mean += inliers.back();
   }
@@ -126,7 +127,7 @@ bool IsVisible(const std::vector<Measured>& points, const Vector4f& plane,
   const int ahead = IsLookingDown(options) ? 1 : 2;  // the second horizontal axis, besides x
   std::set<std::pair<int, int>> squares;
   for (const Measured& p : points) {
-    if (!OnPlane(plane, p.at_m)) continue;
+    if (!OnPlane(plane, p.at_m) || !RunsAlong(plane, p)) continue;
     squares.insert({static_cast<int>(std::floor(10 * p.at_m.x())),
                     static_cast<int>(std::floor(10 * p.at_m[ahead]))});
     if (0.01 * static_cast<double>(squares.size()) >= min_area_m2) return true;
@@ -169,13 +170,18 @@ std::optional<FloorPlane> Confirmed(const std::vector<Measured>& points, Vector4
   return FloorPlane{plane.cast<double>()};
 }
 
-// Over three cells up and down, if measured: a single cell is dominated by quantisation.
-Vector3f UpImage(const PointGrid& grid, int x, int y) {
+// From a cell to the one `rows` below, if measured.
+Vector3f Along(const PointGrid& grid, int x, int y, int rows) {
+  const int other = grid.cell(x, std::clamp(y + rows, 0, grid.height - 1));
+  const Vector3f step_m = grid.at(other) - grid.at(grid.cell(x, y));
+  if (!grid.valid(other) || step_m.isZero()) return Vector3f::Zero();
+  return step_m.normalized();
+}
+
+// Over three cells: a single one is dominated by quantisation.
+Measured Measure(const PointGrid& grid, int x, int y) {
   constexpr int kCells = 3;  // by hand
-  const int above = grid.cell(x, std::max(0, y - kCells));
-  const int below = grid.cell(x, std::min(grid.height - 1, y + kCells));
-  if (!grid.valid(above) || !grid.valid(below)) return Vector3f::Zero();
-  return (grid.at(above) - grid.at(below)).normalized();
+  return {grid.at(grid.cell(x, y)), Along(grid, x, y, -kCells), Along(grid, x, y, kCells)};
 }
 
 }  // namespace
@@ -199,7 +205,7 @@ std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
     for (int x = y / 2 % 2; x < grid.width; x += 2) {
       const int cell = grid.cell(x, y);
       if (!grid.valid(cell)) continue;
-      points.push_back({grid.at(cell), UpImage(grid, x, y)});
+      points.push_back(Measure(grid, x, y));
       if (anywhere || y > grid.height / 3) low.push_back(points.back());
     }
   }

@@ -219,7 +219,7 @@ struct InitiationOptions {
   // Hysteresis: of a track, so that a person who turns away is kept.
   double tracked_score = 0.25;
   // Where the pose network contributes (ComputeScoreWithPose), this replaces new_person_score and
-  // confident_score: 96 % of the people in rendered first frames pass, and 2 of 413 other objects.
+  // confident_score: 96 % of the people in rendered first frames pass, and 1 of 599 other objects.
   double person_by_pose_score = 0.5;
   // Where the forest alone is confident, a score with the network of at least this leaves the
   // decision to the surface fit: the network is less reliable for people near the camera and half
