@@ -90,11 +90,11 @@ std::string AdviseOnOrigin(const ComparedResult& result) {
 
 }  // namespace
 
-// Files that begin at 0 at the same rate have the same frame times, whenever each was begun.
+// Files that begin at 0 with the same rate have equal frame times, whenever they were started.
 std::optional<ClockDifference> FindClockDifference(const std::vector<PairedTracks>& pairs) {
   constexpr double kFarthest_s = 2.0;   // as PairOptions::max_offset_s
-  constexpr double kShortest_s = 0.15;  // what is less may be a filter's lag, which is an error
-  int searches = 5;  // for speed: of a folder of long recordings the first that are far off
+  constexpr double kShortest_s = 0.15;  // a smaller offset may be a filter's lag, which is an error
+  int searches = 5;                     // for speed: only the first clips with large errors
   for (const PairedTracks& whole : pairs) {
     if (!whole.same_clock || searches == 0) continue;
     const PairedTracks pair = SelectBeginning(whole);
