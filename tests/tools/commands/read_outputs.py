@@ -71,10 +71,9 @@ def applied(a, v):
     return [sum(a[i][k] * v[k] for k in range(3)) for i in range(3)]
 
 
-def read_bvh(path):
-    """Forward kinematics of the hierarchy, as any player of BVH does it. Centimetres to metres."""
-    words = open(path).read().split()
-    nodes, stack, at = [], [], 0  # node: name, parent, offset, channels
+def read_bvh_hierarchy(words):
+    """Nodes (name, parent, offset, channels) and the index of the word MOTION."""
+    nodes, stack, at = [], [], 0
     while words[at] != "MOTION":
         word = words[at]
         if word in ("ROOT", "JOINT"):
@@ -95,31 +94,39 @@ def read_bvh(path):
             nodes[-1][3] = words[at + 2 : at + 2 + count]
             at += 1 + count
         at += 1
+    return nodes, at
+
+
+def pose_bvh(nodes, row):
+    """Joint positions, metres, of the channels' values of one frame: forward kinematics."""
+    values, places, turns, joints = iter(row), [], [], {}
+    for name, parent, offset, channels in nodes:
+        place, turn = list(offset), [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        for channel in channels:
+            if channel.endswith("position"):
+                place["XYZ".index(channel[0])] += next(values)
+            else:
+                turn = product(turn, rotation(channel[0], next(values)))
+        if parent >= 0:
+            place = [p + q for p, q in zip(places[parent], applied(turns[parent], place))]
+            turn = product(turns[parent], turn)
+        places.append(place)
+        turns.append(turn)
+        if name and "-" not in name:
+            joints[name] = [0.01 * p for p in place]
+    return joints
+
+
+def read_bvh(path):
+    """Times and joint positions of a BVH file, independently of ossa's reader."""
+    words = open(path).read().split()
+    nodes, at = read_bvh_hierarchy(words)
     count, step_s = int(words[at + 2]), float(words[at + 5])
     numbers = [float(w) for w in words[at + 6 :]]
     width = sum(len(node[3]) for node in nodes)
     assert len(numbers) == count * width, "as many numbers as frames times channels"
-    frames = []
-    for f in range(count):
-        row = iter(numbers[f * width : (f + 1) * width])
-        places, turns, joints = [], [], {}
-        for name, parent, offset, channels in nodes:
-            place, turn = list(offset), [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-            for channel in channels:
-                value = next(row)
-                if channel.endswith("position"):
-                    place["XYZ".index(channel[0])] += value
-                else:
-                    turn = product(turn, rotation(channel[0], value))
-            if parent >= 0:
-                place = [p + q for p, q in zip(places[parent], applied(turns[parent], place))]
-                turn = product(turns[parent], turn)
-            places.append(place)
-            turns.append(turn)
-            if name and "-" not in name:
-                joints[name] = [0.01 * p for p in place]
-        frames.append((f * step_s, joints))
-    return frames
+    return [(f * step_s, pose_bvh(nodes, numbers[f * width : (f + 1) * width]))
+            for f in range(count)]
 
 
 def distance(a, b):
