@@ -125,7 +125,7 @@ TEST_F(PoseNetworkCommands, PackedNetworkGivesTheOutputsOfTheTrainer) {
   // The same person, by PyTorch: position of the joints in the crop and their standard deviation.
   const std::string script = fmt::format(
       "import sys; sys.path.insert(0, '{}')\n"
-      "import numpy, torch, train_pose_network as t\n"
+      "import numpy, torch, pose_network_model as t\n"
       "model = t.PoseNetwork(); model.load_state_dict(torch.load('{}')); model.eval()\n"
       "crops = torch.from_numpy(numpy.load('{}/crops.npy')[:1])\n"
       "place, scale = t.places(model(t.decode(crops)))\n"
@@ -146,6 +146,40 @@ TEST_F(PoseNetworkCommands, PackedNetworkGivesTheOutputsOfTheTrainer) {
     }
     EXPECT_NEAR(pose.error_m[j], expected[4 * j + 3], 0.02) << j;
   }
+}
+
+TEST_F(PoseNetworkCommands, KilledTrainingResumesToTheSameWeights) {
+  if (!HasTorch()) GTEST_SKIP() << "no PyTorch: python3-torch";
+  const std::string crops = Crops(40);
+  const std::string folder = test::SourceFolder() / "tools/learning";
+  const auto train = [&](const std::string& weights, std::vector<std::string> more) {
+    // "kill N": after N steps, as the machine would that loses its power.
+    const std::string script =
+        "import os, sys; sys.path.insert(0, sys.argv.pop(1)); last = int(sys.argv.pop(1))\n"
+        "import train_pose_network as t\n"
+        "step = t.Training.step\n"
+        "def step_or_die(training, *batch):\n"
+        "    if training.steps == last: os.kill(os.getpid(), 9)\n"
+        "    step(training, *batch)\n"
+        "t.Training.step = step_or_die; t.main()\n";
+    const std::string last = more.back();
+    more.pop_back();
+    std::vector<std::string> words = {kPython,   "-c",    script,     folder,     last,
+                                      crops,     "--out", weights,    "--people", "80",
+                                      "--batch", "8",     "--report", "0"};
+    words.insert(words.end(), more.begin(), more.end());
+    return RunProgram(words, std::chrono::minutes(5));
+  };
+  const std::string whole = folder_ / "whole.npy", halves = folder_ / "halves.npy";
+  ASSERT_EQ(train(whole, {"-1"}).exit_status, 0);
+  EXPECT_NE(train(halves, {"6"}).exit_status, 0);
+  const auto refused = train(halves, {"--resume", "--rate", "0.1", "-1"});
+  EXPECT_NE(refused.err.find("made with rate 0.003, not 0.1"), std::string::npos) << refused.err;
+  const auto resumed = train(halves, {"--resume", "-1"});
+  ASSERT_EQ(resumed.exit_status, 0) << resumed.err;
+  EXPECT_NE(resumed.out.find("48 read before"), std::string::npos) << resumed.out;
+  EXPECT_EQ(NumbersOf(whole), NumbersOf(halves));
+  EXPECT_FALSE(std::filesystem::exists(halves + ".checkpoint"));
 }
 
 // It was reported at the first save or evaluation, as a traceback.
