@@ -47,6 +47,11 @@ struct SkeletonFormat {
 
 /// All formats in the order in which they are tried: unambiguous ones first.
 std::span<const SkeletonFormat> AllSkeletonFormats();
+/// Throws InputError with the known names.
+const SkeletonFormat& FormatNamed(const std::string& format);
+/// The format of a file by its beginning; the stream is then at the beginning again. Throws
+/// InputError that says what the file seems to be.
+const SkeletonFormat& DetectFormat(std::istream& stream, const std::string& name);
 
 // Formats by the file they are written in.
 std::span<const SkeletonFormat> PlainFormats();        // skeleton_plain.cpp: jsonl, csv, trc, bvh

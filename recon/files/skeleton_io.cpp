@@ -12,7 +12,7 @@
 #include "depth/base/error.h"
 #include "depth/base/naming_the_file.h"
 #include "recon/files/archive_bytes_internal.h"
-#include "recon/files/foreign_recording_internal.h"
+#include "recon/files/check_sequence_internal.h"
 #include "recon/files/mirrored_body_internal.h"
 #include "recon/files/reading_internal.h"
 #include "recon/files/recording_names_internal.h"
@@ -25,63 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Constants: bounds, by hand.
-
-constexpr size_t kSampleBytes = size_t{1} << 16;
-constexpr size_t kSampleLines = 64;
-
-std::string ReadSample(std::istream& stream) {
-  std::string head(kSampleBytes, '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<size_t>(stream.gcount()));
-  stream.clear();
-  stream.seekg(0);
-  return head;
-}
-
-SkeletonSample MakeSample(std::string_view head, std::string_view name) {
-  SkeletonSample sample{name, head, {}};
-  if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
-  const bool may_be_cut = head.size() >= kSampleBytes - 3;
-  while (!head.empty() && sample.lines.size() < kSampleLines) {
-    const size_t end = head.find_first_of("\r\n");
-    if (end == std::string_view::npos && may_be_cut && !sample.lines.empty()) break;
-    const std::string_view line = Trimmed(head.substr(0, end));
-    if (!line.empty()) sample.lines.push_back(line);
-    if (end == std::string_view::npos) break;
-    head.remove_prefix(end + 1);
-  }
-  return sample;
-}
-
-const SkeletonFormat& FormatNamed(const std::string& format) {
-  const auto formats = AllSkeletonFormats();
-  const auto found = std::find_if(formats.begin(), formats.end(),
-                                  [&](const SkeletonFormat& f) { return f.name == format; });
-  if (found != formats.end()) return *found;
-  std::string known;
-  for (const SkeletonFormat& f : formats) known.append(" ").append(f.name);
-  throw InputError("format " + Quoted(format) + ": expected one of" + known);
-}
-
-const SkeletonFormat& DetectFormat(std::istream& stream, const std::string& name) {
-  const std::string head = ReadSample(stream);
-  if (head.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw InputError(name + ": line 1: expected a skeleton recording, found an empty file");
-  }
-  if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
-    throw InputError(name + ": line 1: expected text in UTF-8, found UTF-16: save it as UTF-8");
-  }
-  const SkeletonSample sample = MakeSample(head, name);
-  for (const SkeletonFormat& format : AllSkeletonFormats()) {
-    if (format.recognises(sample)) return format;
-  }
-  const std::string foreign = DescribeForeignRecording(head);
-  throw InputError(
-      name + ": line 1: expected a skeleton recording that ossa knows, found " +
-      (!foreign.empty() ? foreign : Quoted(sample.lines.empty() ? sample.head : sample.lines[0])));
-}
-
 /// Whether the format and columns are those of a Kinect SDK 2 recording; UI-PRMD's tables hold
 /// Vicon data beside it.
 bool IsKinectV2(std::string_view format, std::string_view columns) {
@@ -90,60 +33,11 @@ bool IsKinectV2(std::string_view format, std::string_view columns) {
          format == "ui-prmd-kinect";
 }
 
-/// Refuses positions farther away than any sensor sees: their squares would overflow and give an
-/// infinite mean error. The file is damaged or in an unusual unit.
-void CheckPlaces(const SkeletonSequence& sequence, const std::string& name) {
-  constexpr double kFarthest_m = 1e6;  // by hand: no sensor sees as far
-  for (const SkeletonFrame& frame : sequence.frames) {
-    for (const BodyRecord& body : frame.bodies) {
-      for (size_t j = 0; j < kJointCount; ++j) {
-        if (!body.joints[j]) continue;
-        const double far_m = body.joints[j]->position_m.cwiseAbs().maxCoeff();
-        if (!(far_m > kFarthest_m)) continue;
-        std::ostringstream found;
-        found << far_m;
-        throw InputError(name + ": frame " + std::to_string(frame.frame) + ": " +
-                         std::string(kJointNames[j]) + ": expected a place within 1000 km, found " +
-                         found.str() + " m");
-      }
-    }
-  }
-}
-
-void CheckBodies(const SkeletonSequence& sequence, const std::string& name) {
-  for (const SkeletonFrame& frame : sequence.frames) {
-    const auto id = RepeatedBody(frame);
-    if (!id) continue;
-    throw InputError(fmt::format("{}: frame {}: expected each body once, found two of id {}", name,
-                                 frame.frame, *id));
-  }
-}
-
 bool AreRefinedJoints(const SkeletonSequence& sequence) {
   return std::any_of(sequence.frames.begin(), sequence.frames.end(), [](const auto& frame) {
     return std::any_of(frame.bodies.begin(), frame.bodies.end(),
                        [](const BodyRecord& body) { return body.bones_m.has_value(); });
   });
-}
-
-/// Refuses recordings whose times repeat always, or in every second frame or more: speeds, filters
-/// and time alignment would be meaningless. Row formats have already reported the line.
-void CheckTimes(const SkeletonSequence& sequence, const std::string& name) {
-  const auto& frames = sequence.frames;
-  size_t still = 0;
-  for (size_t f = 1; f < frames.size(); ++f) {
-    const double step_s = frames[f].time_s - frames[f - 1].time_s;
-    still += step_s == 0.0 ? 1 : 0;
-    const std::string wrong = WrongStep(step_s);
-    if (wrong.empty()) continue;
-    throw InputError(fmt::format("{}: frame {}: expected {}, found {} after {}", name,
-                                 frames[f].frame, wrong, frames[f].time_s, frames[f - 1].time_s));
-  }
-  if (frames.size() < 3 || 2 * still <= frames.size()) return;
-  throw InputError(
-      fmt::format("{}: expected times that grow from frame to frame, found {} of {} "
-                  "frames at the time of the one before",
-                  name, still, frames.size()));
 }
 
 /// Whether the file states times that are not multiples of this step.
@@ -166,7 +60,7 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   }
   SkeletonSequence sequence = format.read(input);
   CheckBodies(sequence, input.name);
-  CheckPlaces(sequence, input.name);
+  CheckPositions(sequence, input.name);
   CheckTimes(sequence, input.name);
   for (const auto& describe : {DescribeUnlikelyUnit, DescribeUnlikelyTimes, DescribeMirrored}) {
     const std::string unlikely = describe(sequence);
@@ -349,21 +243,6 @@ void WarnIfNothingIsChosen(const fs::path& path, const SkeletonPath& parts,
 
 }  // namespace
 
-std::span<const SkeletonFormat> AllSkeletonFormats() {
-  static const std::vector<SkeletonFormat> kAll = [] {
-    std::vector<SkeletonFormat> all;
-    // Azure before ours: both are JSON with "bodies", and only Azure's other keys are unambiguous.
-    // Generic tables last: they have the fewest marks of their own.
-    for (const auto formats :
-         {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(), KinectV2Formats(),
-          KinectV1Formats(), C3dFormats(), StreamSaverFormats(), TableFormats()}) {
-      all.insert(all.end(), formats.begin(), formats.end());
-    }
-    return all;
-  }();
-  return kAll;
-}
-
 void RemoveEmptyBodies(SkeletonSequence& sequence) {
   for (const SkeletonFrame& frame : sequence.frames) {
     for (const BodyRecord& body : frame.bodies) {
@@ -379,12 +258,6 @@ void RemoveEmptyBodies(SkeletonSequence& sequence) {
 void RequireFrames(const SkeletonSequence& sequence) {
   if (!sequence.frames.empty()) return;
   throw InputError(sequence.source + ": expected at least one frame, found none");
-}
-
-std::vector<std::string> SkeletonFormats() {
-  std::vector<std::string> names;
-  for (const SkeletonFormat& format : AllSkeletonFormats()) names.emplace_back(format.name);
-  return names;
 }
 
 SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& name,

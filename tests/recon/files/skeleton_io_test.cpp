@@ -220,7 +220,7 @@ TEST(SkeletonFiles, ImpossiblePositionIsRefusedWithFrameAndJoint) {
   const size_t head = text.find("\"p\":[", text.find("\"Head\""));
   text.replace(head, text.find(']', head) - head, "\"p\":[0,1e300,0");
   EXPECT_EQ(ComplaintAbout(text),
-            "file: frame 0: Head: expected a place within 1000 km, found 1e+300 m");
+            "file: frame 0: Head: expected a position within 1000 km, found 1e+300 m");
 }
 
 // Its header names the file, on one line.
