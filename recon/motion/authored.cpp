@@ -12,7 +12,7 @@ std::vector<Action> AllActions() {
   // change.
   std::vector<Action> all;
   for (const auto& group : {StandingActions(), WalkingActions(), HandActions(), SportActions(),
-                            SeatedActions(), ExerciseActions()}) {
+                            SeatedActions(), LegExerciseActions(), UpperBodyExerciseActions()}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;

@@ -57,8 +57,6 @@ const Bones& RigBones() {
   return bones;
 }
 
-double SideSign(size_t side) { return side == 0 ? 1.0 : -1.0; }
-
 /// Rotation from one pair of perpendicular directions to another (orthogonalised, the first kept).
 Quaterniond FrameTurn(const Vector3d& from, const Vector3d& from_hinge, const Vector3d& to,
                       const Vector3d& to_hinge) {

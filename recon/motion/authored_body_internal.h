@@ -6,6 +6,9 @@
 
 namespace ossa::recon {
 
+/// The sign of x of a side: 1 for the left (0), -1 for the right (1).
+inline double SideSign(size_t side) { return side == 0 ? 1.0 : -1.0; }
+
 /// One arm, by the direction of the wrist from the shoulder, in the chest's axes. Angles are
 /// degrees. flex: 0 hanging, 90 forwards, 180 upright, negative backwards; abduct: outwards from
 /// there, 90 straight to the side, 165 nearly upright through the side, negative across the chest.

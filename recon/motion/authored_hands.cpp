@@ -243,7 +243,7 @@ void Swipe(Moves& m) {
   m.Ease(0.7);
 }
 
-constexpr std::array<Action, 12> kActions = {
+constexpr std::array<Action, 12> kHandActions = {
     {{"point", Point},
      {"wave", Wave},
      {"clap", Clap},
@@ -259,6 +259,6 @@ constexpr std::array<Action, 12> kActions = {
 
 }  // namespace
 
-std::span<const Action> HandActions() { return kActions; }
+std::span<const Action> HandActions() { return kHandActions; }
 
 }  // namespace ossa::recon

@@ -78,6 +78,7 @@ std::span<const Action> WalkingActions();
 std::span<const Action> SportActions();
 std::span<const Action> HandActions();
 std::span<const Action> SeatedActions();
-std::span<const Action> ExerciseActions();
+std::span<const Action> LegExerciseActions();
+std::span<const Action> UpperBodyExerciseActions();
 
 }  // namespace ossa::recon

@@ -137,10 +137,11 @@ void SitCrossingLegs(Moves& m) {
   StandUp(m, seat);
 }
 
-constexpr std::array<Action, 2> kActions = {{{"sit", Sit}, {"sit_crossing_legs", SitCrossingLegs}}};
+constexpr std::array<Action, 2> kSeatedActions = {
+    {{"sit", Sit}, {"sit_crossing_legs", SitCrossingLegs}}};
 
 }  // namespace
 
-std::span<const Action> SeatedActions() { return kActions; }
+std::span<const Action> SeatedActions() { return kSeatedActions; }
 
 }  // namespace ossa::recon

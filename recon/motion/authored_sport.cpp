@@ -270,15 +270,15 @@ void Throw(Moves& m) {
   }
 }
 
-constexpr std::array<Action, 6> kActions = {{{"golf", Golf},
-                                             {"punch", Punch},
-                                             {"kick", Kick},
-                                             {"tai_chi", TaiChi},
-                                             {"jumping_jacks", JumpingJacks},
-                                             {"throw", Throw}}};
+constexpr std::array<Action, 6> kSportActions = {{{"golf", Golf},
+                                                  {"punch", Punch},
+                                                  {"kick", Kick},
+                                                  {"tai_chi", TaiChi},
+                                                  {"jumping_jacks", JumpingJacks},
+                                                  {"throw", Throw}}};
 
 }  // namespace
 
-std::span<const Action> SportActions() { return kActions; }
+std::span<const Action> SportActions() { return kSportActions; }
 
 }  // namespace ossa::recon

@@ -168,17 +168,17 @@ void Lunge(Moves& m) {
   }
 }
 
-constexpr std::array<Action, 8> kActions = {{{"stand", Stand},
-                                             {"t_pose", TPose},
-                                             {"bend_over", BendOver},
-                                             {"bend_sideways", BendSideways},
-                                             {"twist_trunk", TwistTrunk},
-                                             {"pick_up", PickUp},
-                                             {"squat", Squat},
-                                             {"lunge", Lunge}}};
+constexpr std::array<Action, 8> kStandingActions = {{{"stand", Stand},
+                                                     {"t_pose", TPose},
+                                                     {"bend_over", BendOver},
+                                                     {"bend_sideways", BendSideways},
+                                                     {"twist_trunk", TwistTrunk},
+                                                     {"pick_up", PickUp},
+                                                     {"squat", Squat},
+                                                     {"lunge", Lunge}}};
 
 }  // namespace
 
-std::span<const Action> StandingActions() { return kActions; }
+std::span<const Action> StandingActions() { return kStandingActions; }
 
 }  // namespace ossa::recon

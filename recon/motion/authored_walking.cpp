@@ -154,15 +154,15 @@ void Carry(Moves& m) {
   m.Ease(0.8);
 }
 
-constexpr std::array<Action, 6> kActions = {{{"walk", Walk},
-                                             {"walk_back_and_forth", WalkBackAndForth},
-                                             {"turn", TurnAround},
-                                             {"side_steps", SideSteps},
-                                             {"march", March},
-                                             {"carry", Carry}}};
+constexpr std::array<Action, 6> kWalkingActions = {{{"walk", Walk},
+                                                    {"walk_back_and_forth", WalkBackAndForth},
+                                                    {"turn", TurnAround},
+                                                    {"side_steps", SideSteps},
+                                                    {"march", March},
+                                                    {"carry", Carry}}};
 
 }  // namespace
 
-std::span<const Action> WalkingActions() { return kActions; }
+std::span<const Action> WalkingActions() { return kWalkingActions; }
 
 }  // namespace ossa::recon
