@@ -123,6 +123,13 @@ std::array<double, 2> ComputeShift(const std::vector<double>& k, double x, doubl
           y * (factor - 1) + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
 }
 
+bool IsFisheye(const std::string& model) {
+  const std::string name = LowerCase(model);
+  constexpr std::array kNames = {"fisheye", "equi", "fov", "kannala"};  // of ROS, Kalibr, COLMAP
+  return std::any_of(kNames.begin(), kNames.end(),
+                     [&](const char* part) { return name.find(part) != name.npos; });
+}
+
 // Nine numbers in row-major order, from row-major (OpenCV, ROS) or column-major order (MATLAB,
 // Record3D): the principal point is in the last column or in the last row.
 std::array<double, 9> RowByRow(const std::vector<double>& n) {
@@ -162,7 +169,62 @@ std::optional<std::pair<std::string, double>> ReadNamedNumber(std::string_view l
   return std::pair{LowerCase(name), numbers.front()};
 }
 
+// The YAML blocks `NAME:` with indented lines, without the indentation.
+std::vector<std::string> SplitBlocks(const std::string& text) {
+  std::vector<std::string> blocks;
+  size_t indent = 0;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    const size_t blanks = std::min(line.find_first_not_of(' '), line.size());
+    if (blanks == 0) {
+      blocks.emplace_back();
+      indent = 0;
+    } else if (!blocks.empty()) {
+      if (indent == 0) indent = blanks;
+      blocks.back().append(line.substr(std::min(indent, blanks))) += '\n';
+    }
+    begin = end + 1;
+  }
+  return blocks;
+}
+
+std::optional<Calibration> ReadCameraModel(const std::string& block, const std::string& name) {
+  const auto model = Value(block, {"camera_model"});
+  const auto intrinsics = Value(block, {"intrinsics"});
+  if (!model || !intrinsics) return std::nullopt;
+  const std::vector<double> n = NumbersOf(*intrinsics);
+  if (WordOf(model) != "pinhole" || n.size() != 4) {
+    throw InputError(name + ": expected camera_model pinhole and four intrinsics, found " +
+                     WordOf(model) + " and " + std::to_string(n.size()));
+  }
+  Calibration found{.matrix = {n[0], 0, n[2], 0, n[1], n[3], 0, 0, 1}};
+  if (const auto size = Value(block, {"resolution"})) {
+    const std::vector<double> sides = NumbersOf(*size);
+    found.width = SideOf(size, name);
+    found.height = SideOf(sides.size() == 2 ? std::to_string(sides[1]) : std::string(), name);
+  }
+  if (const auto lens = Value(block, {"distortion_coeffs", "distortion_coefficients"})) {
+    found.distortion = NumbersOf(*lens);
+  }
+  found.model = WordOf(Value(block, {"distortion_model"}));
+  if (found.model == "radtan" || found.model == "radial-tangential") found.model = "plumb_bob";
+  return found;
+}
+
 }  // namespace
+
+std::optional<Calibration> ReadKalibrCamera(const std::string& text, const std::string& name) {
+  std::vector<std::string> blocks = SplitBlocks(text);
+  blocks.push_back(text);  // EuRoC's sensor.yaml has one camera and no block
+  std::optional<Calibration> found;
+  for (const std::string& block : blocks) {
+    auto camera = ReadCameraModel(block, name);
+    if (camera && found) throw InputError(name + ": expected one camera, found several");
+    if (camera) found = std::move(camera);
+  }
+  return found;
+}
 
 std::optional<Calibration> ReadNamedNumbers(const std::string& text, const std::string& name) {
   std::map<std::string, double> named;
@@ -210,6 +272,8 @@ std::optional<Calibration> FindCalibration(const std::string& text, const std::s
 }
 
 double ComputeCornerShift(const Calibration& calibration) {
+  // They bend without coefficients, too.
+  if (IsFisheye(calibration.model)) return std::numeric_limits<double>::quiet_NaN();
   const bool is_straight = std::all_of(calibration.distortion.begin(), calibration.distortion.end(),
                                        [](double k) { return k == 0.0; });
   if (is_straight) return 0.0;

@@ -33,6 +33,15 @@ std::optional<Calibration> ReadBareMatrix(const std::string& text);
 /// nullopt for other texts. Throws InputError, starting with `name`, for a size that is none.
 std::optional<Calibration> ReadNamedNumbers(const std::string& text, const std::string& name);
 
+/// The pinhole camera of a calibration by Kalibr (camchain.yaml: camera_model, intrinsics fx fy cx
+/// cy, resolution) or of EuRoC's sensor.yaml; nullopt for other texts. Throws InputError, starting
+/// with `name`, for another camera model, and for several cameras, of which any may be meant.
+std::optional<Calibration> ReadKalibrCamera(const std::string& text, const std::string& name);
+
+/// The camera of COLMAP's cameras.txt, its principal point moved by half a pixel to our pixel
+/// centres; nullopt for other texts. Throws InputError, starting with `name`, as above.
+std::optional<Calibration> ReadColmapCameras(const std::string& text, const std::string& name);
+
 /// Largest displacement of an image corner by the distortion, pixels; if the size is not stated it
 /// is twice the principal point. NaN for models other than OpenCV's.
 double ComputeCornerShift(const Calibration& calibration);

@@ -170,12 +170,14 @@ CameraChoice ReadCameraFile(const std::filesystem::path& path) {
   const std::string text = ReadText(path), name = path.string();
   if (const auto calibration = FindCalibration(text, name)) return ChoiceOf(*calibration, name);
   if (LowerCaseExtension(path) == ".json") return CameraFromJson(text, name);
+  if (const auto camera = ReadKalibrCamera(text, name)) return ChoiceOf(*camera, name);
+  if (const auto camera = ReadColmapCameras(text, name)) return ChoiceOf(*camera, name);
   if (const auto matrix = ReadBareMatrix(text)) return ChoiceOf(*matrix, name);
   if (const auto named = ReadNamedNumbers(text, name)) return ChoiceOf(*named, name);
   throw InputError(
       name +
       ": expected a camera_matrix, as OpenCV and ROS write it, or its numbers alone, or "
-      "fx, fy, cx and cy by name");
+      "fx, fy, cx and cy by name, or a camera of Kalibr or COLMAP");
 }
 
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera) {

@@ -16,10 +16,10 @@ Camera ReadCameraJson(const std::filesystem::path& path);
 /// that name exists.
 bool IsCameraFile(const std::filesystem::path& path);
 /// Reads the intrinsics in a camera file: camera.json, a calibration of OpenCV's FileStorage (YAML,
-/// XML, JSON) or of ROS (camera_calibration's ost.yaml, camera_info), or the numbers of the camera
-/// matrix alone. Without an image size in the file they are for images of any size. Distortion of
-/// more than a hundredth of the image's width is ignored and reported in `unheeded`. Throws
-/// InputError naming the file.
+/// XML, JSON), of ROS (camera_calibration's ost.yaml, camera_info), Kalibr (camchain.yaml) or
+/// COLMAP (cameras.txt), or the numbers of the camera matrix alone. Without an image size in the
+/// file they are for images of any size. Distortion of more than a hundredth of the image's width
+/// is ignored and reported in `unheeded`. Throws InputError naming the file.
 CameraChoice ReadCameraFile(const std::filesystem::path& path);
 void WriteCameraJson(const std::filesystem::path& path, const Camera& camera);
 

@@ -167,6 +167,8 @@ TEST(CornerShift, IsTheDistortionAtTheCorner) {
   EXPECT_NEAR(ComputeCornerShift(calibration), 2.5, 1e-12);
   calibration.model = "equidistant";
   EXPECT_TRUE(std::isnan(ComputeCornerShift(calibration)));
+  calibration.distortion = {0, 0, 0, 0};
+  EXPECT_TRUE(std::isnan(ComputeCornerShift(calibration)));
 }
 
 class CameraFile : public testing::Test {
@@ -226,6 +228,48 @@ TEST_F(CameraFile, MayNameTheFourNumbers) {
                         "Camera.k1: 0.3\nCamera.width: 64\nCamera.height: 48\n"));
   EXPECT_EQ(bent.camera, (Camera{64, 48, 100, 110, 30, 40}));
   EXPECT_NE(bent.unheeded.find("the lens moves"), std::string::npos) << bent.unheeded;
+}
+
+TEST_F(CameraFile, OfKalibrHasItsPinholeCamera) {
+  const std::string camera =
+      "  cam_overlaps: []\n  camera_model: pinhole\n  distortion_coeffs: [0.001, 0, 0, 0]\n"
+      "  distortion_model: radtan\n  intrinsics: [100, 110, 30, 40]\n  resolution: [64, 48]\n"
+      "  rostopic: /depth\n";
+  const CameraChoice choice = ParseCamera(Write("camchain.yaml", "cam0:\n" + camera));
+  EXPECT_EQ(choice.camera, (Camera{64, 48, 100, 110, 30, 40}));
+  EXPECT_EQ(choice.unheeded, "");
+  test::ExpectRefused(
+      [&] { ParseCamera(Write("two.yaml", "cam0:\n" + camera + "cam1:\n" + camera)); },
+      "two.yaml: expected one camera, found several");
+  test::ExpectRefused(
+      [&] { ParseCamera(Write("o.yaml", "a:\n  camera_model: omni\n  intrinsics: [1, 2]\n")); },
+      "o.yaml: expected camera_model pinhole and four intrinsics, found omni and 2");
+}
+
+TEST_F(CameraFile, OfEurocHasItsLens) {
+  const CameraChoice choice = ParseCamera(
+      Write("sensor.yaml",
+            "resolution: [64, 48]\ncamera_model: pinhole\nintrinsics: [100, 110, 30, 40] #fu, fv\n"
+            "distortion_model: radial-tangential\ndistortion_coefficients: [0.3, 0, 0, 0]\n"));
+  EXPECT_EQ(choice.camera, (Camera{64, 48, 100, 110, 30, 40}));
+  EXPECT_NE(choice.unheeded.find("the lens moves"), std::string::npos) << choice.unheeded;
+}
+
+// COLMAP counts pixels from their corners.
+TEST_F(CameraFile, OfColmapIsMovedByHalfAPixel) {
+  const std::string head = "# Camera list\n#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n";
+  const auto read = [&](const std::string& line) {
+    return ParseCamera(Write("cameras.txt", head + line + "\n"));
+  };
+  EXPECT_EQ(read("1 PINHOLE 64 48 100 110 30.5 40.5").camera, (Camera{64, 48, 100, 110, 30, 40}));
+  EXPECT_EQ(read("7 SIMPLE_RADIAL 64 48 100 30.5 40.5 0").camera,
+            (Camera{64, 48, 100, 100, 30, 40}));
+  EXPECT_NE(read("1 OPENCV_FISHEYE 64 48 100 110 30 40 0.1 0 0 0").unheeded.find("OPENCV_FISHEYE"),
+            std::string::npos);
+  test::ExpectRefused([&] { read("1 PINHOLE 64 48 100 110 30.5"); },
+                      "cameras.txt: line 3: expected CAMERA_ID PINHOLE WIDTH HEIGHT and 4 param");
+  test::ExpectRefused([&] { read("1 PINHOLE 64 48 9 9 3 4\n2 PINHOLE 64 48 9 9 3 4"); },
+                      "cameras.txt: line 4: expected one camera, found another");
 }
 
 TEST_F(CameraFile, MayHaveAnyExtensionAndFurtherNumbers) {
