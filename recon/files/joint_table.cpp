@@ -125,11 +125,36 @@ void PutConfidences(const PointBody& body, const std::vector<std::optional<doubl
   }
 }
 
+bool IsAtOrigin(const NamedPoint& point) { return point.place.isZero(0.0); }
+
+/// The labels of joints to which all others are relative: always at the origin, with all other
+/// joints around it. Nobody can be so near to a depth camera.
+std::set<size_t> FindRoots(const JointTable& table, double metres_per_unit) {
+  // Metres, by hand: from hips or neck to the next joint, and to the farthest.
+  constexpr double kNearest_m = 0.3, kFarthest_m = 1.5;
+  std::set<size_t> roots, others;
+  double nearest_m = kFarthest_m, farthest_m = 0.0;
+  for (const TableFrame& row : table.frames()) {
+    for (const NamedPoint& point : row.seen) {
+      (IsAtOrigin(point) ? roots : others).insert(point.label);
+      if (IsAtOrigin(point)) continue;
+      nearest_m = std::min(nearest_m, point.place.norm() * metres_per_unit);
+      farthest_m = std::max(farthest_m, point.place.norm() * metres_per_unit);
+    }
+  }
+  if (nearest_m > kNearest_m || farthest_m > kFarthest_m) return {};
+  std::erase_if(roots, [&](size_t label) { return others.contains(label); });
+  return roots;
+}
+
 SkeletonFrame MakeTableFrame(const JointTable& table, const TableFrame& row,
-                             const std::vector<PointBody>& bodies, size_t index) {
+                             const std::vector<PointBody>& bodies, const std::set<size_t>& roots,
+                             size_t index) {
   std::vector<SeenPoint> points(table.labels().size());
   std::vector<std::optional<double>> confidences(points.size());
   for (const NamedPoint& one : row.seen) {
+    // Like the Kinect SDK, programs write the origin for joints that were not seen.
+    if (IsAtOrigin(one) && !roots.contains(one.label)) continue;
     points[one.label] = one.place;
     confidences[one.label] = one.confidence;
   }
@@ -193,8 +218,7 @@ void JointTable::Add(const TextLines& lines, const std::string& label,
   if (!named_.insert(number).second) {
     lines.Fail("each joint once a frame (of several people a column 'body' says whose)", label);
   }
-  // Like the Kinect SDK, programs write the origin for joints that were not seen.
-  if (place && !place->isZero(0.0)) frames_.back().seen.push_back({number, *place, confidence});
+  if (place) frames_.back().seen.push_back({number, *place, confidence});
 }
 
 SkeletonSequence MakeSequence(const SkeletonInput& input, const JointTable& table,
@@ -207,14 +231,20 @@ SkeletonSequence MakeSequence(const SkeletonInput& input, const JointTable& tabl
   const double first = counts ? FirstNumber(table.frames(), sequence) : 0.0;
   const double s_per_unit = counts ? input.FrameTime_s(kKinectStep_s)
                                    : SecondsPerUnit(columns.time, table.frames(), sequence);
-  for (const TableFrame& row : table.frames()) {
-    SkeletonFrame frame = MakeTableFrame(table, row, bodies, sequence.frames.size());
-    frame.time_s = (frame.time_s - first) * s_per_unit;
-    if (columns.body) LeaveOutAbsent(frame);
-    sequence.frames.push_back(std::move(frame));
-  }
+  const auto make_frames = [&](const std::set<size_t>& roots) {
+    sequence.frames.clear();
+    for (const TableFrame& row : table.frames()) {
+      SkeletonFrame frame = MakeTableFrame(table, row, bodies, roots, sequence.frames.size());
+      frame.time_s = (frame.time_s - first) * s_per_unit;
+      if (columns.body) LeaveOutAbsent(frame);
+      sequence.frames.push_back(std::move(frame));
+    }
+  };
+  make_frames({});
+  const double metres_per_unit = MetresOfUnit(sequence);
+  if (const auto roots = FindRoots(table, metres_per_unit); !roots.empty()) make_frames(roots);
   RemoveEmptyBodies(sequence);
-  Scale(sequence, MetresOfUnit(sequence));
+  Scale(sequence, metres_per_unit);
   TurnFromImageAxes(sequence);
   RotateUpright(sequence, {'z', Eigen::Vector3d::UnitZ()});
   return sequence;

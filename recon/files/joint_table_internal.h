@@ -29,7 +29,7 @@ struct RowColumns {
 /// Finds them by the names in a header.
 RowColumns FindRowColumns(const std::vector<std::string>& names);
 
-/// A joint that was seen.
+/// A joint with a position; one at the origin was not seen, unless it is the root.
 struct NamedPoint {
   size_t label = 0;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  // in the file's unit

@@ -113,6 +113,18 @@ TEST(JointColumns, BlankNanAndOriginAreMissingJoints) {
   }
 }
 
+TEST(JointTables, KeepTheJointToWhichAllOthersAreRelative) {
+  const std::string relative =
+      "0 SpineBase 0 0 0\n0 HipLeft 100 -50 0\n0 KneeLeft 100 -450 0\n0 HandLeft 0 0 0\n"
+      "1 SpineBase 0 0 0\n1 HipLeft 100 -50 0\n1 KneeLeft 100 -450 0\n1 HandLeft 300 0 0\n";
+  const auto read = ReadText(relative);
+  EXPECT_EQ(At(read, 1, Joint::kHipCenter), Eigen::Vector3d(0, 0, 0));
+  EXPECT_NEAR(At(read, 1, Joint::kKneeLeft).y(), -0.45, 1e-12);
+  EXPECT_FALSE(read.frames[0].bodies[0].joints[Index(Joint::kHandLeft)]) << "not in all rows";
+  const auto near = ReadText("0 FootLeft 0 0 0\n0 HipLeft 0 0 1\n0 KneeLeft 0 -0.4 1\n");
+  EXPECT_FALSE(near.frames[0].bodies[0].joints[Index(Joint::kFootLeft)]) << "before a camera";
+}
+
 TEST(JointTables, MillimetresAndCentimetresAreRecognisedByTheLimbsWithANote) {
   const auto thousandfold = [](double units) {
     std::ostringstream text;
