@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "tools/commands/clock_options.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
@@ -19,20 +19,6 @@
 
 namespace ossa::commands {
 namespace {
-
-void ReadTimeAlignment(const std::string& word, tools::PairOptions& options) {
-  if (word == "auto") {
-    options.time = tools::TimeAlignment::kAuto;
-  } else if (word == "none") {
-    options.time = tools::TimeAlignment::kNone;
-  } else if (word == "correlate") {
-    options.time = tools::TimeAlignment::kCorrelate;
-  } else if (CLI::detail::lexical_cast(word, options.offset_s) && std::isfinite(options.offset_s)) {
-    options.time = tools::TimeAlignment::kFixed;
-  } else {
-    throw UsageError("--time: expected auto, none, correlate or seconds, found '" + word + "'");
-  }
-}
 
 tools::Comparison Compared(const std::string& truth, const std::vector<std::string>& results,
                            tools::CompareOptions options, bool quiet) {
@@ -59,7 +45,8 @@ std::string Formats() {
 struct CompareArguments {
   std::string truth;
   std::vector<std::string> results;
-  std::string align = "none", joints = "all", time = "auto";
+  std::string align = "none", joints = "all";
+  ClockOptions clock;
   bool to_json = false;
   std::string json;  // "" or -: stdout
   std::string report;
@@ -78,14 +65,7 @@ void AddPairingOptions(CLI::App& app, CompareArguments& a) {
                  "state not_tracked")
       ->check(CLI::IsMember({"all", "found"}))
       ->capture_default_str();
-  app.add_option("--time", a.time,
-                 "auto: cross-correlation where the frame times disagree; none; correlate: always; "
-                 "or seconds to add to the results' times")
-      ->capture_default_str();
-  app.add_option("--max-offset", a.options.pairing.max_offset_s,
-                 "largest offset that correlation considers, seconds")
-      ->check(CLI::Range(0.0, 60.0))
-      ->capture_default_str();
+  a.clock.AddTo(app, "the results'");
 }
 
 void AddReadingOptions(CLI::App& app, tools::CompareOptions& options) {
@@ -156,7 +136,7 @@ int Compare(int argc, char** argv) {
   const CLI::Option* json = DeclareOptions(app, a);
   Parse(app, argc, argv);
   a.to_json = json->count() > 0;
-  ReadTimeAlignment(a.time, a.options.pairing);
+  a.clock.Read(a.options.pairing);
   a.options.pairing.rigid = a.align == "rigid";
   a.options.pairing.found_only = a.joints == "found";
   CheckOutputFiles(a);

@@ -10,12 +10,15 @@
 #include "depth/base/train_interrupted.h"
 #include "recon/files/skeleton_io.h"
 #include "recon/models/learned_models.h"
+#include "tools/commands/clock_options.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/process.h"
 #include "tools/commands/reading_bar.h"
 #include "tools/commands/skeleton_reading_options.h"
 #include "tools/commands/warnings.h"
+#include "tools/experiments/experiment.h"
 #include "tools/learning/pair_recordings.h"
 
 namespace ossa::commands {
@@ -50,6 +53,8 @@ struct LearnArguments {
   std::string out;
   recon::LearnOptions options;
   recon::SkeletonReadOptions reading;
+  ClockOptions clock{.time = "none"};
+  tools::PairOptions pairing;
   bool quiet = false, correction_only = false;
 };
 
@@ -72,6 +77,7 @@ void Declare(CLI::App& app, LearnArguments& a) {
   app.add_option("--pairs", options.most_pairs,
                  "maximum number of pairs for liu-2016, full-gp and exemplar")
       ->capture_default_str();
+  a.clock.AddTo(app, "the observed");
   app.add_flag("--correction-only", a.correction_only,
                "learn only what best uses: fast, a quarter of a megabyte");
   app.add_flag("--quiet", a.quiet, "no progress");
@@ -102,6 +108,8 @@ LearnArguments ParseLearnOptions(int argc, char** argv) {
   Declare(app, a);
   Parse(app, argc, argv);
   Check(a);
+  a.clock.Read(a.pairing);
+  a.pairing.stop = Interrupted;
   a.options.correction.seed = a.options.mixture.seed;
   a.options.correction.stop = a.options.window.stop = Interrupted;
   a.options.processes = !a.correction_only;
@@ -110,11 +118,24 @@ LearnArguments ParseLearnOptions(int argc, char** argv) {
   return a;
 }
 
+std::vector<recon::PosturePair> PairUntilInterrupted(const LearnArguments& a) try {
+  tools::PairRecordingsOptions options;
+  options.reading = a.reading;
+  options.clock = a.pairing;
+  options.read = PrintReadingWarnings;
+  options.note = [quiet = a.quiet](const std::string& line) {
+    if (!quiet) PrintError("learn: " + line + "\n");
+  };
+  return tools::PairRecordings(a.observed, a.truth, options);
+} catch (const tools::Interruption&) {
+  throw InputError("learn: interrupted; nothing was written");
+}
+
 }  // namespace
 
 int Learn(int argc, char** argv) {
   const LearnArguments a = ParseLearnOptions(argc, argv);
-  const auto pairs = tools::PairRecordings(a.observed, a.truth, a.reading, PrintReadingWarnings);
+  const auto pairs = PairUntilInterrupted(a);
   if (Interrupted()) throw InputError("learn: interrupted; nothing was written");
   CheckPairs(a.observed, pairs);
   Progress progress("learn", a.quiet);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "depth/base/error.h"
@@ -53,6 +54,28 @@ void WarnOfUnpaired(const std::string& observed_path, const std::string& truth_p
                   observed_path, without, truth.size(), observed[first].name, truth_path));
 }
 
+// Shifts the times of recordings by the offsets of their clocks from the truth's.
+void AlignClocks(const std::string& observed_path,
+                 const std::vector<const recon::SkeletonClip*>& truth,
+                 const PairRecordingsOptions& options, Clips& observed) {
+  if (options.clock.time == TimeAlignment::kNone) return;
+  for (size_t i = 0; i < observed.size(); ++i) {
+    if (truth[i] == nullptr) continue;
+    recon::SkeletonSequence& sequence = observed[i].sequence;
+    const auto pairs = PairUp(truth[i]->sequence, sequence, options.clock);
+    const double offset_s = pairs.empty() ? 0.0 : pairs.front().offset_s;
+    if (std::lround(1000.0 * offset_s) == 0) continue;  // of less than half a millisecond
+    for (int64_t number = -1; recon::SkeletonFrame & frame : sequence.frames) {
+      frame.time_s += offset_s;
+      frame.frame = number--;  // the truth's numbers count another clock's frames
+    }
+    if (!options.note || options.clock.time == TimeAlignment::kFixed) continue;
+    const std::string& name = observed[i].name;
+    options.note(fmt::format("{}{}{}: {:+.3f} s added to its times", observed_path,
+                             name.empty() ? "" : "#", name, offset_s));
+  }
+}
+
 // Of another moment of the truth a correction would learn the movement between. Warns of the first.
 void WarnOfClock(const std::string& observed_path, const std::string& truth_path,
                  const std::vector<const recon::SkeletonClip*>& truth, Clips& observed) {
@@ -64,7 +87,7 @@ void WarnOfClock(const std::string& observed_path, const std::string& truth_path
     const auto clock = FindClockDifference(PairUp(truth[i]->sequence, sequence, as_they_are));
     if (!clock) continue;
     sequence.warnings.push_back(fmt::format(
-        "{}{}{} is far nearer to {} {}: if their clocks differ, correct its times first",
+        "{}{}{} is far nearer to {} {}: if their clocks differ, align them (--time correlate)",
         observed_path, observed[i].name.empty() ? "" : "#", observed[i].name, truth_path,
         Describe(*clock)));
     return;
@@ -84,10 +107,9 @@ void AddClips(const std::string& observed_path, const Clips& observed,
 
 }  // namespace
 
-std::vector<recon::PosturePair> PairRecordings(
-    const std::vector<std::string>& observed, const std::vector<std::string>& truth,
-    const recon::SkeletonReadOptions& reading,
-    const std::function<bool(const std::vector<recon::SkeletonClip>&)>& read) {
+std::vector<recon::PosturePair> PairRecordings(const std::vector<std::string>& observed,
+                                               const std::vector<std::string>& truth,
+                                               const PairRecordingsOptions& options) {
   if (observed.size() != truth.size()) {
     throw InputError("observed and truth: expected as many files of one as of the other, found " +
                      std::to_string(observed.size()) + " and " + std::to_string(truth.size()));
@@ -95,12 +117,13 @@ std::vector<recon::PosturePair> PairRecordings(
   std::vector<recon::PosturePair> pairs;
   People people;
   for (size_t i = 0; i < observed.size(); ++i) {
-    Clips seen = recon::ReadSkeletonClips(observed[i], reading);
-    const Clips known = recon::ReadSkeletonClips(truth[i], reading);
+    Clips seen = recon::ReadSkeletonClips(observed[i], options.reading);
+    const Clips known = recon::ReadSkeletonClips(truth[i], options.reading);
     const auto truth_of = FindTruth(seen, known);
     WarnOfUnpaired(observed[i], truth[i], truth_of, seen);
+    AlignClocks(observed[i], truth_of, options, seen);
     WarnOfClock(observed[i], truth[i], truth_of, seen);
-    if (read && !(read(seen) && read(known))) return pairs;
+    if (options.read && !(options.read(seen) && options.read(known))) return pairs;
     const size_t before = pairs.size();
     AddClips(observed[i], seen, truth_of, people, pairs);
     if (pairs.size() == before) {

@@ -30,12 +30,17 @@ class PairedFolders : public testing::Test {
       }
       return true;
     };
-    return PairRecordings({seen_}, {true_}, {}, read).size();
+    PairRecordingsOptions options;
+    options.clock = clock_;
+    options.read = read;
+    options.note = [this](const std::string& line) { said_.push_back(line); };
+    return PairRecordings({seen_}, {true_}, options).size();
   }
 
   test::TemporaryFolder folder_;
   std::string seen_ = folder_ / "seen", true_ = folder_ / "true";
   std::vector<std::string> said_;
+  PairOptions clock_{.time = TimeAlignment::kNone};
 };
 
 TEST_F(PairedFolders, ReportTheNumberOfRecordingsWithoutTruth) {
@@ -67,6 +72,24 @@ TEST_F(PairedFolders, WarnOfARecordingWhoseClockIsAnother) {
   CountPairs();
   ASSERT_EQ(said_.size(), 1u);
   EXPECT_NE(said_[0].find("with +0.80 s added to its times"), std::string::npos) << said_[0];
+}
+
+TEST_F(PairedFolders, AreShiftedByTheSecondsGiven) {
+  const std::vector<recon::Posture> walk = recon::test::Seen(1, 300).truth;
+  recon::WriteSkeletons(true_ + "/walk.jsonl", recon::test::SequenceOf(walk));
+  recon::WriteSkeletons(seen_ + "/walk.jsonl", recon::test::SequenceOf(walk));
+  clock_ = {.time = TimeAlignment::kFixed, .offset_s = 0.2};
+  EXPECT_EQ(CountPairs(), 294u) << "not by number: the last six frames are after the truth's end";
+}
+
+TEST_F(PairedFolders, AreShiftedByTheOffsetThatCorrelatesBest) {
+  const std::vector<recon::Posture> walk = recon::test::Seen(1, 300).truth;
+  recon::WriteSkeletons(true_ + "/walk.jsonl", recon::test::SequenceOf(walk));
+  recon::WriteSkeletons(seen_ + "/walk.jsonl", BegunLater(walk, 24));
+  clock_.time = TimeAlignment::kCorrelate;
+  EXPECT_EQ(CountPairs(), 276u);
+  ASSERT_EQ(said_.size(), 1u) << "and no warning";
+  EXPECT_NE(said_[0].find("walk: +0.80"), std::string::npos) << said_[0];
 }
 
 TEST_F(PairedFolders, WithoutACommonNameAreRefused) {

@@ -16,20 +16,27 @@
 namespace ossa::python {
 namespace {
 
+void ReadClock(const py::dict& given, tools::PairOptions& pairing) {
+  pairing.max_offset_s = given["max_offset_s"].cast<double>();
+  pairing.stop = [] { return !CheckSignals(); };
+  const py::object time = given["time"];
+  if (!py::isinstance<py::str>(time)) {
+    pairing.time = tools::TimeAlignment::kFixed;
+    pairing.offset_s = time.cast<double>();
+  } else if (time.cast<std::string>() == "none") {
+    pairing.time = tools::TimeAlignment::kNone;
+  } else if (time.cast<std::string>() == "correlate") {
+    pairing.time = tools::TimeAlignment::kCorrelate;
+  } else {
+    pairing.time = tools::TimeAlignment::kAuto;
+  }
+}
+
 tools::CompareOptions CompareOptionsFrom(const py::dict& given) {
   tools::CompareOptions options;
   options.pairing.rigid = given["align"].cast<std::string>() == "rigid";
   options.pairing.found_only = given["joints"].cast<std::string>() == "found";
-  options.pairing.max_offset_s = given["max_offset_s"].cast<double>();
-  const py::object time = given["time"];
-  if (!py::isinstance<py::str>(time)) {
-    options.pairing.time = tools::TimeAlignment::kFixed;
-    options.pairing.offset_s = time.cast<double>();
-  } else if (time.cast<std::string>() == "none") {
-    options.pairing.time = tools::TimeAlignment::kNone;
-  } else if (time.cast<std::string>() == "correlate") {
-    options.pairing.time = tools::TimeAlignment::kCorrelate;
-  }
+  ReadClock(given, options.pairing);
   options.reading.mapping_file = given["mapping"].cast<std::string>();
   options.reading.frame_s = given["frame_s"].cast<double>();
   options.reading.format = given["format"].cast<std::string>();
@@ -57,7 +64,7 @@ std::string Evaluate(const std::string& path, const std::string& dataset, int64_
   });
 }
 
-// Returns the number of pairs and the warnings.
+// Returns the number of pairs, the warnings and the offsets of clocks that were found.
 py::tuple Learn(const std::vector<std::string>& observed, const std::vector<std::string>& truth,
                 const std::string& out, const py::dict& given) {
   recon::LearnOptions options;
@@ -66,24 +73,27 @@ py::tuple Learn(const std::vector<std::string>& observed, const std::vector<std:
   options.mixture.samples = given["samples"].cast<int>();
   options.most_pairs = given["pairs"].cast<size_t>();
   options.processes = !given["correction_only"].cast<bool>();
-  recon::SkeletonReadOptions reading;
-  reading.mapping_file = given["mapping"].cast<std::string>();
-  reading.frame_s = given["frame_s"].cast<double>();
-  std::vector<std::string> warnings;
+  tools::PairRecordingsOptions pairing;
+  pairing.reading.mapping_file = given["mapping"].cast<std::string>();
+  pairing.reading.frame_s = given["frame_s"].cast<double>();
+  ReadClock(given, pairing.clock);
+  std::vector<std::string> warnings, notes;
+  pairing.read = [&](const std::vector<recon::SkeletonClip>& clips) {
+    for (const recon::SkeletonClip& clip : clips) {
+      const std::vector<std::string>& more = clip.sequence.warnings;
+      warnings.insert(warnings.end(), more.begin(), more.end());
+    }
+    return CheckSignals();
+  };
+  pairing.note = [&](const std::string& line) { notes.push_back(line); };
   const size_t count = Interruptible([&] {
-    const auto pairs = tools::PairRecordings(observed, truth, reading, [&](const auto& clips) {
-      for (const recon::SkeletonClip& clip : clips) {
-        const std::vector<std::string>& more = clip.sequence.warnings;
-        warnings.insert(warnings.end(), more.begin(), more.end());
-      }
-      return CheckSignals();
-    });
+    const auto pairs = tools::PairRecordings(observed, truth, pairing);
     const auto models =
         recon::LearnedModels::Learn(pairs, options, [](int) { return CheckSignals(); });
     if (CheckSignals()) models.Save(out);
     return pairs.size();
   });
-  return py::make_tuple(count, warnings);
+  return py::make_tuple(count, warnings, notes);
 }
 
 }  // namespace

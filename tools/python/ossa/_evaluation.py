@@ -57,6 +57,15 @@ class _Files:
         return text
 
 
+def _clock_options(time: Union[str, float], max_offset_s: float) -> dict[str, Any]:
+    return {
+        "time": _check.one_of("time", time, ("auto", "none", "correlate"))
+        if isinstance(time, str)
+        else _check.number("time", time, -1e9, 1e9),
+        "max_offset_s": _check.number("max_offset_s", max_offset_s, 0.0, 60.0),
+    }
+
+
 def _several(name: str, value: Any) -> list[Any]:
     several = list(value) if isinstance(value, (list, tuple)) else [value]
     if not several:
@@ -116,10 +125,7 @@ def compare(
     options = {
         "align": _check.one_of("align", align, ("none", "rigid")),
         "joints": _check.one_of("joints", joints, ("all", "found")),
-        "time": _check.one_of("time", time, ("auto", "none", "correlate"))
-        if isinstance(time, str)
-        else _check.number("time", time, -1e9, 1e9),
-        "max_offset_s": _check.number("max_offset_s", max_offset_s, 0.0, 60.0),
+        **_clock_options(time, max_offset_s),
         "format": "" if format is None else _check.one_of("format", format, SKELETON_FORMATS),
         "mapping": _check.optional_path("mapping", mapping),
         "frame_s": _check.frame_s(frame_s),
@@ -174,6 +180,8 @@ def learn(
     regions: int = 30,
     samples: int = 50,
     pairs: int = 2500,
+    time: Union[str, float] = "none",
+    max_offset_s: float = 2.0,
     mapping: Optional[PathLike] = None,
     frame_s: Optional[float] = None,
     seed: int = 1,
@@ -194,6 +202,9 @@ def learn(
         Q and S of liu-2016, 1 to 1000 and 2 to 5000.
     pairs : int
         Pairs at most, for liu-2016, full-gp and exemplar; 10 or more.
+    time, max_offset_s
+        As of ossa.compare: how the observed times are shifted to the clock of the truth. The logger
+        "ossa" reports offsets that were found.
     mapping, frame_s : optional
         As of read_skeletons.
     seed : int
@@ -209,6 +220,7 @@ def learn(
         "regions": _check.whole("regions", regions, 1, 1000),
         "samples": _check.whole("samples", samples, 2, 5000),
         "pairs": _check.whole("pairs", pairs, 10, 2**31 - 1),
+        **_clock_options(time, max_offset_s),
         "mapping": _check.optional_path("mapping", mapping),
         "frame_s": _check.frame_s(frame_s),
         "seed": _check.whole("seed", seed, 0, 2**63 - 1),
@@ -220,9 +232,11 @@ def learn(
         seen = [files.path_of("observed", s) for s in _several("observed", observed)]
         known = [files.path_of("truth", s) for s in _several("truth", truth)]
         try:
-            count, warnings = _native.learn(seen, known, written, options)
+            count, warnings, notes = _native.learn(seen, known, written, options)
         except _native.InputError as error:
             raise _native.InputError(files.named(str(error))) from None
         for warning in warnings:
             _LOG.warning("%s", files.named(warning))
+        for note in notes:
+            _LOG.info("%s", files.named(note))
     return {"out": written, "pairs": count}
