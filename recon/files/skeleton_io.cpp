@@ -62,9 +62,8 @@ SkeletonSequence Read(SkeletonInput input, const SkeletonReadOptions& options) {
   CheckBodies(sequence, input.name);
   CheckPositions(sequence, input.name);
   CheckTimes(sequence, input.name);
-  for (const auto& describe : {DescribeUnlikelyUnit, DescribeUnlikelyTimes, DescribeMirrored}) {
-    const std::string unlikely = describe(sequence);
-    if (!unlikely.empty()) sequence.warnings.push_back(input.name + ": " + unlikely);
+  for (const std::string& unlikely : DescribeOddities(sequence)) {
+    sequence.warnings.push_back(input.name + ": " + unlikely);
   }
   if (options.frame_s > 0 && StatesOtherTimes(sequence, options.frame_s)) {
     sequence.warnings.push_back(
@@ -242,6 +241,15 @@ void WarnIfNothingIsChosen(const fs::path& path, const SkeletonPath& parts,
 }
 
 }  // namespace
+
+std::vector<std::string> DescribeOddities(const SkeletonSequence& sequence) {
+  std::vector<std::string> oddities;
+  for (const auto& describe : {DescribeUnlikelyUnit, DescribeUnlikelyTimes, DescribeMirrored}) {
+    std::string oddity = describe(sequence);
+    if (!oddity.empty()) oddities.push_back(std::move(oddity));
+  }
+  return oddities;
+}
 
 void RemoveEmptyBodies(SkeletonSequence& sequence) {
   for (const SkeletonFrame& frame : sequence.frames) {

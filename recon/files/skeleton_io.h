@@ -66,6 +66,10 @@ std::vector<SkeletonClip> ReadSkeletonClips(const std::filesystem::path& path,
 SkeletonSequence ReadSkeletonStream(std::istream& stream, const std::string& name,
                                     const SkeletonReadOptions& options = {});
 
+/// What cannot be right about the unit of the positions, that of the times, or left and right, a
+/// sentence each; empty if all is plausible. The functions above add it to the warnings.
+std::vector<std::string> DescribeOddities(const SkeletonSequence& sequence);
+
 /// Writes by extension: .jsonl, .csv, .trc, .bvh, .glb (skeleton_writer.h). TRC and BVH hold one
 /// person per file: of several, the first is written to `path` and each other one to `path` with
 /// `_ID` before the extension; all begin with the sequence's first frame. Files appear under their

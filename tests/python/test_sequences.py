@@ -159,8 +159,23 @@ def test_learn_logs_that_a_clock_is_not_the_truths(tmp_path, caplog):
         return joints
 
     late = ossa.Sequence(times[:-15], swinging(phase[15:]))
-    ossa.learn(late, ossa.Sequence(times, swinging(phase)), tmp_path / "x.ossagp", correction_only=True)
+    truth = ossa.Sequence(times, swinging(phase))
+    ossa.learn(late, truth, tmp_path / "x.ossagp", correction_only=True)
     assert any("added to its times" in record.getMessage() for record in caplog.records)
+    caplog.clear()
+    ossa.learn(late, truth, tmp_path / "x.ossagp", correction_only=True, time="correlate")
+    assert not caplog.records
+    with pytest.raises(ossa.InputError, match="time: expected"):
+        ossa.learn(late, truth, tmp_path / "x.ossagp", time="always")
+
+
+def test_reconstruct_logs_times_that_cannot_be_seconds(seen, caplog):
+    ossa.reconstruct(ossa.Sequence(1000 * seen.times, seen.joints), "one-euro")
+    [warning] = caplog.records
+    assert warning.getMessage().startswith("sequence: its frames are ")
+    caplog.clear()
+    ossa.reconstruct(ossa.Sequence(seen.times, seen.joints), "one-euro")
+    assert not caplog.records
 
 
 def test_learned_methods_need_their_file(seen):

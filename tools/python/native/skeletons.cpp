@@ -264,6 +264,10 @@ recon::LagOptions LagFrom(const py::object& lag, const std::string& method, bool
   return recon::LagOptions::Of(lag.is_none() ? usual : lag.cast<int>(), info.keeps_bones);
 }
 
+std::vector<std::string> DescribeOddities(const py::dict& rows) {
+  return recon::DescribeOddities(SequenceFrom(rows));
+}
+
 py::dict Reconstruct(const py::dict& rows, const py::dict& given) {
   const recon::SkeletonSequence sequence = SequenceFrom(rows);
   const bool offline = given["method"].cast<std::string>() == "butterworth";
@@ -290,6 +294,7 @@ void AddSkeletons(py::module_& module) {
   module.def("read_clips", &ReadClips, py::arg("path"), py::arg("options"));
   module.def("write_skeletons", &Write, py::arg("sequence"), py::arg("path"), py::arg("how"),
              py::arg("shapes"));
+  module.def("describe_oddities", &DescribeOddities, py::arg("sequence"));
   module.def("reconstruct", &Reconstruct, py::arg("sequence"), py::arg("options"));
 }
 

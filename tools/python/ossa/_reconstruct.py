@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _check, _method_options, _native
@@ -11,6 +12,9 @@ from ._sources import PathLike
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
+
+
+_LOG = logging.getLogger("ossa")
 
 
 def _lag_option(lag: Any) -> Optional[int]:
@@ -45,7 +49,8 @@ def reconstruct(
     Parameters
     ----------
     sequence : Sequence
-        Observed skeletons. Absent joints and those not tracked are reconstructed.
+        Observed skeletons. Absent joints and those not tracked are reconstructed. The logger "ossa"
+        warns of times and lengths that cannot be seconds and metres.
     method : str
         One of ossa.METHODS, or "butterworth": a low pass over the whole recording, for comparison.
     database : path, optional
@@ -103,7 +108,11 @@ def reconstruct(
         "seed": _check.whole("seed", seed, 0, 2**63 - 1),
         "method_options": _method_options.checked(method, method_options),
     }
-    return from_native(_native.reconstruct(to_rows(sequence), options))
+    rows = to_rows(sequence)
+    if not sequence.source:  # of files the reader logged them
+        for oddity in _native.describe_oddities(rows):
+            _LOG.warning("sequence: %s", oddity)
+    return from_native(_native.reconstruct(rows, options))
 
 
 reconstruct.__doc__ = (reconstruct.__doc__ or "").replace("METHOD_OPTIONS", _method_options.HELP)
