@@ -63,7 +63,7 @@ class PreparedSource final : public FrameSource {
     text << name_ << ": as millimetres half of the depths lie beyond " << std::setprecision(2)
          << *median_m
          << " m, where nobody is tracked: if they are fifths of a millimetre (Orbbec), "
-            "--depth-scale 5000; quarters, 4000; tenths, 10000";
+            "--depth-scale 5000; halves, 2000; quarters, 4000; tenths, 10000";
     note_(NoteKind::kWarning, text.str());
   }
 

@@ -23,6 +23,7 @@
 #include "recon/refine/refinement_cascade.h"
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/info_paths.h"
 #include "tools/commands/info_picture.h"
 #include "tools/commands/outputs.h"
 #include "tools/commands/process.h"
@@ -238,8 +239,6 @@ void ShowUpright(const SourceArguments& arguments) {
              90 * tracker.quarter_turns());
 }
 
-bool IsNonEmpty(const fs::path& path) { return !fs::is_directory(path) || !fs::is_empty(path); }
-
 void ShowSkeletonClip(const recon::SkeletonClip& clip) {
   const auto& frames = clip.sequence.frames;
   const std::string& columns = clip.sequence.columns;
@@ -289,14 +288,6 @@ constexpr std::array kKinds = {
     FileKind{tools::IsUnfinishedDataset, ShowDataset},  // refuses it with a message
 };
 
-// FILE#truth, FILE.bag#/topic and similar are files, too; devices are described by their driver.
-void RequireExists(const std::string& file) {
-  if (IsDevice(file)) return;
-  const bool is_there = fs::exists(file) || fs::exists(recon::FindSkeletonFile(file)) ||
-                        (depth::IsRecording(file) && fs::exists(file.substr(0, file.rfind('#'))));
-  if (!is_there) throw InputError(file + ": no such file or folder");
-}
-
 recon::BodySurface LoadSurface(const std::string& named) {
   return recon::BodySurface::Load(named.empty() ? tracker::ShippedFile(recon::kShippedSurface)
                                                 : fs::path(named));
@@ -311,7 +302,8 @@ void Show(const SourceArguments& arguments, const std::string& surface, bool is_
     if (kind.show == nullptr) return kind.show_with(path, LoadSurface(surface));
     return kind.show(path);
   }
-  if (is_depth || depth::IsRecording(path)) return ShowDepthRecording(arguments);
+  if (is_depth || depth::IsRecording(path) || HoldsFolderOfImages(path))
+    return ShowDepthRecording(arguments);
   if (IsNonEmpty(path)) return ShowSkeletons(path);
   throw InputError(arguments.name +
                    ": expected a DATASET, a folder of PNGs or one of skeleton files");
@@ -348,6 +340,7 @@ int Info(int argc, char** argv) {
   const size_t others = 2 + app.count("--picture") + app.count("--surface");
   const bool is_depth = app.count_all() > others;
   Show(file, surface, is_depth);
+  PrintUnreadSurface(file.name, surface);
   if (app.count("--rotate") > 0 && file.rotate == "auto") ShowUpright(file);
   return 0;
 }

@@ -16,6 +16,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/process.h"
 #include "tools/commands/source_options.h"
 
 namespace ossa::commands {
@@ -64,6 +65,10 @@ RecordOptions ParseOptions(int argc, char** argv) {
   Parse(app, argc, argv);
   if (!options.fakenect) CheckExtension("--out", options.out, ".oni");
   CheckOutputs({options.out}, {options.source.name});
+  PrintUnreadDeviceOptions(app, options.source, options.quiet);
+  if (app.count("--rotate") > 0 && !options.quiet) {
+    PrintError("ossa: --rotate is not read by record: images are recorded as they are\n");
+  }
   return options;
 }
 

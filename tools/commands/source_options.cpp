@@ -140,6 +140,15 @@ void AddDeviceOptions(CLI::App& app, SourceArguments& arguments) {
       ->check(CLI::Range(1e-3, kLongest_s));
 }
 
+// No refusal: a file of defaults may have them for devices.
+void PrintUnreadDeviceOptions(const CLI::App& app, const SourceArguments& arguments, bool quiet) {
+  if (quiet || IsDevice(arguments.name)) return;
+  for (const char* option : {"--wait", "--patience"}) {
+    if (app.count(option) == 0) continue;
+    PrintError(fmt::format("ossa: {} is not read for a recording\n", option));
+  }
+}
+
 std::unique_ptr<depth::FrameSource> OpenSource(const SourceArguments& arguments, bool quiet) {
   depth::SourceOptions options = DepthOptions(arguments, quiet);
   options.device_wait = Milliseconds(arguments.wait_s);

@@ -47,6 +47,9 @@ void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,
 /// Adds --wait and --patience, for devices.
 void AddDeviceOptions(CLI::App& app, SourceArguments& arguments);
 
+/// Prints a line for each of them that was given for a recording, unless quiet.
+void PrintUnreadDeviceOptions(const CLI::App& app, const SourceArguments& arguments, bool quiet);
+
 /// Opens the source; waits for a device as --wait requests, printing that once unless quiet, until
 /// Ctrl-C. Assumptions and skipped frames are printed unless quiet, losses always. Throws
 /// UsageError for an invalid --camera.

@@ -242,6 +242,7 @@ TrackOptions ParseTrackOptions(int argc, char** argv) {
   CheckSources(app, options);
   CheckHasOutput(options);
   PrintUnreadPageOptions(app, options);
+  PrintUnreadDeviceOptions(app, options.source, options.quiet);
   options.targets = ParseTargets(options.send);
   CheckMethod(app, options);
   if (options.posture == "refined") {

@@ -276,9 +276,12 @@ void AddTrackingOptions(CLI::App& app, ViewOptions& options) {
 
 // Skeletons of a file are shown as they are.
 void PrintTrackingOptions(const CLI::App& app, const std::string& file) {
-  for (const char* option : {"--model", "--database", "--prior", "--learned", "--refinement",
-                             "--pose-network", "--method", "--smoothing", "--physics", "--scene",
-                             "--mount", "--seated", "--near", "--users", "--fit", "--person"}) {
+  for (const char* option :
+       {"--model",        "--database",     "--prior",     "--learned",      "--refinement",
+        "--pose-network", "--method",       "--smoothing", "--physics",      "--scene",
+        "--mount",        "--seated",       "--near",      "--users",        "--fit",
+        "--person",       "--control",      "--hinges",    "--joint-limits", "--camera",
+        "--depth-scale",  "--depth-format", "--mirrored",  "--rotate",       "--record-to"}) {
     if (app.count(option) == 0) continue;
     PrintError(fmt::format(
         "ossa view: {}: {} is for a source that is tracked: these are skeletons\n", file, option));

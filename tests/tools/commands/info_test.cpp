@@ -76,6 +76,14 @@ TEST(InfoCommand, ShowsTheSkinOfACustomBodySurface) {
       << track.err;
 }
 
+TEST(InfoCommand, NamesTheFolderOfDepthImagesInsideOne) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "depth");
+  test::WriteExampleFolder(folder / "depth", 1);
+  std::ofstream(folder / "camera.json") << "{}";
+  ExpectRefused(folder.path(), "found none in it, but in " + std::string(folder / "depth"));
+}
+
 // Two postures that differ by far more than the filter's threshold.
 recon::PostureDatabase TwoPostures() {
   recon::PostureClip clip{"two.bvh", {}, {}};

@@ -47,6 +47,19 @@ TEST(RecordCommand, RecordingOfARecordingIsIdentical) {
   EXPECT_EQ(source->Read(test::kCommandTimeout).frame.depth_mm, ExampleFrame(0).depth_mm);
 }
 
+TEST(RecordCommand, ReportsOptionsThatItDoesNotRead) {
+  const TemporaryFolder folder;
+  WriteExampleFolder(folder.path(), 1);
+  std::vector<std::string> command = {
+      "record", folder.path().string(), "--out", folder / "x.oni", "--wait", "1", "--rotate", "90"};
+  const CommandResult result = RunOssa(command);
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_NE(result.err.find("--wait is not read for a recording"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("--rotate is not read by record"), std::string::npos) << result.err;
+  command.push_back("--quiet");
+  EXPECT_EQ(RunOssa(command).err, "");
+}
+
 TEST(RecordCommand, RecordsMirroredImagesUnmirrored) {
   const TemporaryFolder folder;
   WriteExampleFolder(folder.path(), 1);
