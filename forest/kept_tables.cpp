@@ -140,7 +140,7 @@ bool Fill(std::vector<T>& table, uint64_t count, int file, uint64_t at) {
 std::vector<TableSize> ReadHead(const fs::path& file, Kept* kept) {
   const std::vector<std::byte> bytes = ReadContainer(file, kTablesFormat);
   PayloadReader head(bytes, file.string());
-  kept->data = ParseForest(head.GetVector<std::byte>("what is no table"), file.string());
+  kept->data = ParseForest(head.GetVector<std::byte>("forest without its tables"), file.string());
   const auto trees = head.Get<uint64_t>("trees");
   constexpr uint64_t kMost = 64;  // of trees; the bound of ForestModel
   if (trees > kMost) head.Fail("trees", "more than 64");

@@ -94,9 +94,9 @@ std::string ExplainFailure(const std::filesystem::path& path) {
   std::error_code unknown;
   const auto type = std::filesystem::status(path, unknown).type();
   using std::filesystem::file_type;
-  if (type == file_type::not_found) return "found no such file";
+  if (type == file_type::not_found) return "found no file";
   if (type == file_type::regular || type == file_type::none) return "found one that cannot be read";
-  return "found what is no file, such as a pipe or a device";
+  return type == file_type::directory ? "found a folder" : "found a pipe or a device";
 }
 
 }  // namespace

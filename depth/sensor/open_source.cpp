@@ -136,6 +136,8 @@ void SourceOptions::Check() const {
   const auto is_rate = [](double value) { return std::isfinite(value) && value > 0; };
   const double scale = depth_scale.value_or(1.0), rate = fps.value_or(1.0);
   require("depth_scale", scale, is_rate(scale), "units to the metre, > 0");
+  const bool reads_scale = depth_format != DepthFormat::kDisparity || !depth_scale;
+  require("depth_scale", scale, reads_scale, "none with raw shifts, whose unit is known");
   require("fps", rate, is_rate(rate), "frames a second, > 0");
   require("inverted_from", inverted_from, inverted_from >= 1 && inverted_from <= 65535,
           "1 to 65535");
@@ -207,7 +209,7 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
       source +
       ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, a 16-bit PNG or "
       "a folder of them, or a data set, found " +
-      (std::filesystem::exists(path, error) ? "what has none of these names" : "no such thing"));
+      (std::filesystem::exists(path, error) ? "a file of another name" : "no such file or folder"));
 }
 
 }  // namespace

@@ -53,9 +53,10 @@ class BvhWriter final : public SkeletonWriter::Format {
 
 void RequirePeople(const PeopleLog& people, const fs::path& path) {
   if (!people.ids().empty()) return;
-  throw InputError(path.string() + ": expected somebody whose motion a " +
-                   path.extension().string() +
-                   " can hold, found nobody in any frame (.jsonl, .csv and .trc hold that, too)");
+  throw InputError(
+      path.string() +
+      ": expected a person in one frame or more, found none (.jsonl, .csv and .trc can "
+      "be written without people)");
 }
 
 std::unique_ptr<SkeletonWriter::Format> NewBvhWriter(const fs::path& path, BvhNames names) {

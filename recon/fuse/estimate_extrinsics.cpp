@@ -31,7 +31,7 @@ struct EvaluatedGuess {
 
 [[noreturn]] void RefuseCamera(const SkeletonSequence& other, const std::string& found) {
   throw InputError(
-      fmt::format("{}: expected somebody whom both cameras see moving, found {}; --extrinsics FILE "
+      fmt::format("{}: expected a person whom both cameras see moving, found {}; --extrinsics FILE "
                   "says where cameras are",
                   other.source, found));
 }

@@ -14,6 +14,7 @@ namespace ossa::commands {
 struct ClockOptions {
   std::string time = "auto";
   double max_offset_s = tools::PairOptions().max_offset_s;
+  bool states_max_offset = false;
 
   /// `whose` times are shifted: "the results'".
   void AddTo(CLI::App& app, const std::string& whose) {
@@ -25,10 +26,12 @@ struct ClockOptions {
     app.add_option("--max-offset", max_offset_s,
                    "largest offset that correlation considers, seconds")
         ->check(CLI::Range(0.0, 60.0))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->each([this](const std::string&) { states_max_offset = true; });
   }
 
-  /// Throws UsageError for a time that is neither a word nor a number.
+  /// Throws UsageError for a time that is neither a word nor a number, and for a largest offset if
+  /// none is searched for.
   void Read(tools::PairOptions& options) const {
     options.max_offset_s = max_offset_s;
     if (time == "auto") {
@@ -42,6 +45,11 @@ struct ClockOptions {
       options.time = tools::TimeAlignment::kFixed;
     } else {
       throw UsageError("--time: expected auto, none, correlate or seconds, found '" + time + "'");
+    }
+    const bool searches = options.time == tools::TimeAlignment::kAuto ||
+                          options.time == tools::TimeAlignment::kCorrelate;
+    if (states_max_offset && !searches) {
+      throw UsageError("--max-offset: expected --time auto or correlate with it, found " + time);
     }
   }
 };

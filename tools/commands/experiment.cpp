@@ -71,11 +71,6 @@ int RunAndPrint(const std::string& name, tools::ExperimentContext& context, bool
   return 0;
 }
 
-int Threads(int threads) {
-  if (threads >= 1 && threads <= 1024) return threads;
-  throw InputError(fmt::format("threads = {}: expected 1 to 1024", threads));
-}
-
 }  // namespace
 
 int Experiment(int argc, char** argv) {
@@ -136,10 +131,8 @@ int Study(int argc, char** argv) {
   context.model = given.Text("model", "");
   context.database = given.Text("database", "");
   context.full = given.Flag("full", false);
-  context.threads = Threads(given.Integer("threads", 1));
-  const int seed = given.Integer("seed", 1);
-  if (seed < 0) throw InputError(fmt::format("{}: seed = {}: expected 0 or more", file, seed));
-  context.seed = static_cast<uint64_t>(seed);
+  context.threads = given.Integer("threads", 1, 1, 1024);
+  context.seed = static_cast<uint64_t>(given.Integer("seed", 1));
   return RunAndPrint(name, context, quiet);
 }
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "depth/base/angles.h"
 #include "depth/base/atomic_file.h"
 #include "recon/fuse/fuse_skeletons.h"
+#include "tools/commands/command.h"
 #include "tools/commands/outputs.h"
 
 namespace ossa::commands {
@@ -52,10 +54,18 @@ void FuseArguments::AddTo(CLI::App& app) {
   app.add_option("--max-offset", estimate.max_clock_offset_s,
                  "largest clock offset that auto considers, seconds")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 60.0));
+      ->check(CLI::Range(0.0, 60.0))
+      ->each([this](const std::string&) { states_max_offset = true; });
 }
 
 void FuseArguments::Check(std::span<const std::string> sources) const {
+  if (states_max_offset && !File().empty()) {
+    throw UsageError("--max-offset: expected --extrinsics auto with it, found " + File());
+  }
+  for (const std::string& source : sources) {
+    if (std::count(sources.begin(), sources.end(), source) == 1) continue;
+    throw UsageError(source + ": expected a recording of each camera, found this one twice");
+  }
   CheckNotOtherKind("--save-extrinsics", save_extrinsics, ".json");
   if (!save_extrinsics.empty()) AtomicFile::CheckWritable(save_extrinsics);
   if (!File().empty()) ReadCameras(File(), recon::CameraNames(sources));

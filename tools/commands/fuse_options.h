@@ -19,12 +19,13 @@ struct FuseArguments {
   std::string extrinsics = "auto";  // or a file
   std::string save_extrinsics;
   recon::EstimateExtrinsicsOptions estimate;
+  bool states_max_offset = false;
 
   /// Adds --extrinsics, --save-extrinsics and --max-offset.
   void AddTo(CLI::App& app);
   /// To be called before tracking: throws UsageError for a name with the extension of another kind
-  /// of file, and InputError for an output that cannot be written and a file that does not match
-  /// these recordings.
+  /// of file, a recording given twice and a largest offset that is not read, and InputError for an
+  /// output that cannot be written and a file that does not match these recordings.
   void Check(std::span<const std::string> sources) const;
   /// The file to read; "" for auto.
   std::string File() const { return extrinsics == "auto" ? "" : extrinsics; }

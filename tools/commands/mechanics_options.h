@@ -23,8 +23,12 @@ struct MechanicsOptions {
     options.people = build;
     return options;
   }
-  /// Throws UsageError if a character is configured without being used.
+  bool stated_off = false;
+  /// Throws UsageError if a character is configured without being used, or used and not.
   void Check() const {
+    if (stated_off && !scene.empty()) {
+      throw UsageError("--physics off: expected no --scene with it");
+    }
     if (follows() || !(build.motors || build.hinges || build.joint_limits)) return;
     const char* option = build.motors   ? "--control motor"
                          : build.hinges ? "--hinges"
@@ -36,7 +40,8 @@ struct MechanicsOptions {
 inline void AddMechanicsOptions(CLI::App& app, MechanicsOptions& options) {
   app.add_option("--physics", options.physics,
                  "let a physical character follow the postures (default off)")
-      ->check(CLI::IsMember({"on", "off"}));
+      ->check(CLI::IsMember({"on", "off"}))
+      ->each([&options](const std::string& value) { options.stated_off = value == "off"; });
   app.add_option(
       "--scene", options.scene,
       "FILE.toml of boxes, balls and rules: all people in one physics simulation with them");

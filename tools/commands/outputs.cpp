@@ -55,7 +55,8 @@ void CheckOutputs(const std::vector<std::string>& outputs, const std::vector<std
     for (const std::string& input : inputs) {
       const fs::path file = recon::FindSkeletonFile(input);
       if (!IsSameFile(outputs[i], file) && !IsPartOfInput(file, outputs[i])) continue;
-      throw UsageError(outputs[i] + ": expected a new file, found what is to be read");
+      throw UsageError(fmt::format(
+          "{}: expected an output other than the inputs, found the input {}", outputs[i], input));
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -230,9 +231,14 @@ void CheckLocalPca(const CLI::App& app, const ReconstructArguments& a) {
   if (a.options.local_pca.solver == "ceres" && app.count("--samples") > 0) {
     throw UsageError("--samples is not read by --solver ceres: expected --solver stochastic");
   }
+  double largest = 0.0;
   for (const double weight : a.weights) {
-    if (weight >= 0) continue;
+    largest = std::max(largest, weight);
+    if (weight >= 0 && std::isfinite(weight)) continue;
     throw UsageError(fmt::format("--weights: expected numbers from 0 up, found {}", weight));
+  }
+  if (!a.weights.empty() && largest == 0.0) {
+    throw UsageError("--weights: expected one above 0, found zeros");
   }
 }
 

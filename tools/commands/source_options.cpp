@@ -44,10 +44,13 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
     const depth::DepthCoding coding = depth::ParseDepthFormat(arguments.depth_format);
     options.depth_format = coding.format;
     options.inverted_from = coding.inverted_from;
+    if (arguments.depth_scale > 0) options.depth_scale = arguments.depth_scale;
+    if (coding.format == depth::DepthFormat::kDisparity && options.depth_scale) {
+      throw InputError("--depth-scale: expected none with --depth-format disparity");
+    }
   } catch (const InputError& error) {
     throw UsageError(error.what());
   }
-  if (arguments.depth_scale > 0) options.depth_scale = arguments.depth_scale;
   if (arguments.fps > 0) options.fps = arguments.fps;
   options.mirrored = arguments.mirrored;
   options.guessed = [guessed = arguments.guessed](const depth::CameraGuess& guess) {
@@ -73,9 +76,9 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
   for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");
   app.add_option("--camera", arguments.camera,
                  presets +
-                     "or fx,fy,cx,cy in pixels, or a file: camera.json, a calibration of OpenCV or "
-                     "ROS (.yaml, .xml, .json), or the camera matrix alone (.txt) (default: the "
-                     "source's own, else by the image size)");
+                     "or fx,fy,cx,cy in pixels, or a file: camera.json, a calibration of OpenCV, "
+                     "ROS, Kalibr or COLMAP (.yaml, .xml, .json, .txt), or the camera matrix alone "
+                     "(.txt) (default: the source's own, else by the image size)");
   app.add_option("--depth-scale", arguments.depth_scale,
                  "depth units per metre of a recording (default: its own, else 1000, millimetres)")
       ->check(CLI::Range(1e-3, 1e6));

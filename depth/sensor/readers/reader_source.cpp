@@ -120,7 +120,7 @@ std::unique_ptr<FrameSource> OpenWith(const Reader& reader, const std::string& n
                                       const std::vector<std::string>& arguments,
                                       const SourceOptions& options) {
   if (!fs::is_regular_file(arguments.front())) {
-    throw InputError(name + ": expected a recording, found what is no file, such as a pipe");
+    throw InputError(name + ": expected a recording, found a pipe or a device");
   }
   auto source = std::make_unique<ReaderSource>(reader, name, arguments, options);
   const UnitStated unit = source->unit();

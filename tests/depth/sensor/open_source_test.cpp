@@ -52,6 +52,9 @@ TEST(SourceOptions, InvalidNumbersAreRefused) {
     test::ExpectRefused([&] { OpenSource(name, {.depth_scale = bad}); }, "depth_scale");
     test::ExpectRefused([&] { OpenSource(name, {.fps = bad}); }, "fps");
   }
+  test::ExpectRefused(
+      [&] { OpenSource(name, {.depth_scale = 1000.0, .depth_format = DepthFormat::kDisparity}); },
+      "depth_scale: expected none with raw shifts");
   test::ExpectRefused([&] { OpenSource(name, {.inverted_from = 0}); }, "inverted_from");
 }
 
@@ -59,17 +62,19 @@ TEST(OpenSource, ReportsWhatANonRegularFileIs) {
   const TemporaryFolder folder;
   for (const char* name : {"pipe.oni", "pipe.mkv", "pipe.bag"}) {
     mkfifo((folder / name).c_str(), 0600);
-    test::ExpectRefused([&] { OpenSource((folder / name).string()); }, "such as a pipe");
+    test::ExpectRefused([&] { OpenSource((folder / name).string()); }, "found a pipe or a device");
   }
-  test::ExpectRefused([&] { OpenSource((folder / "none.oni").string()); }, "no such file");
+  test::ExpectRefused([&] { OpenSource((folder / "none.oni").string()); },
+                      "none.oni: expected an .oni recording, found no file");
 }
 
 TEST(OpenSource, ReportsFilesOfAnotherKindAsSuch) {
   const TemporaryFolder folder;
   std::ofstream(folder / "depth.xyz") << "II*";
   test::ExpectRefused([&] { OpenSource((folder / "depth.xyz").string()); },
-                      "found what has none of these names");
-  test::ExpectRefused([&] { OpenSource((folder / "none.xyz").string()); }, "no such thing");
+                      "found a file of another name");
+  test::ExpectRefused([&] { OpenSource((folder / "none.xyz").string()); },
+                      "found no such file or folder");
 }
 
 TEST(OpenSource, RefusesOtherInputInOneLine) {

@@ -93,7 +93,7 @@ TEST(GltfWriter, RecordingWithoutBodiesIsRefused) {
   SkeletonSequence nobody = ExampleSequence(3);
   for (SkeletonFrame& frame : nobody.frames) frame.bodies.clear();
   test::ExpectRefused([&] { WriteSkeletons(folder / "x.glb", nobody, {}); },
-                      "expected somebody whose motion a .glb can hold");
+                      "expected a person in one frame or more, found none");
   EXPECT_FALSE(std::filesystem::exists(folder / "x.glb"));
 }
 

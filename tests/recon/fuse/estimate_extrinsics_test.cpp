@@ -113,7 +113,7 @@ TEST(EstimateCamera, RefusesAmbiguousMotion) {
   auto nobody = moving;
   nobody.source = "B.jsonl";
   for (auto& frame : nobody.frames) frame.bodies.clear();
-  EXPECT_EQ(SaidOf(moving, nobody).find("B.jsonl: expected somebody whom both cameras see moving"),
+  EXPECT_EQ(SaidOf(moving, nobody).find("B.jsonl: expected a person whom both cameras see moving"),
             0u);
   auto still = moving;
   for (auto& frame : still.frames) frame.bodies = moving.frames[0].bodies;

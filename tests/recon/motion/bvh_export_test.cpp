@@ -118,7 +118,7 @@ TEST(BvhExport, RecordingWithoutBodiesIsRefused) {
   SkeletonSequence nobody = SeenAt({0.0, 0.1});
   for (SkeletonFrame& frame : nobody.frames) frame.bodies.clear();
   ossa::test::ExpectRefused([&] { WriteSkeletons(folder / "x.bvh", nobody); },
-                            "x.bvh: expected somebody");
+                            "x.bvh: expected a person");
   WriteSkeletons(folder / "x.trc", nobody);
   EXPECT_TRUE(std::filesystem::exists(folder / "x.trc"));
 }
@@ -129,7 +129,7 @@ TEST(BvhExport, BodyWithoutJointsIsRefused) {
   SkeletonSequence unseen = SeenAt({0.0, 0.1});
   for (SkeletonFrame& frame : unseen.frames) frame.bodies[0].joints = {};
   ossa::test::ExpectRefused([&] { WriteSkeletons(folder / "x.bvh", unseen); },
-                            "x.bvh: expected somebody");
+                            "x.bvh: expected a person");
   SkeletonSequence two = SeenAt({0.0, 0.1});
   for (SkeletonFrame& frame : two.frames) {
     frame.bodies.insert(frame.bodies.begin(), BodyRecord{});

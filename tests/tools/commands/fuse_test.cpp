@@ -90,8 +90,8 @@ TEST_F(FuseCommand, ReportsUnusableInputInOneLine) {
   recon::WriteExtrinsics(room_, {{.name = "alone"}});
   const std::vector<std::pair<std::vector<std::string>, std::string>> failures = {
       {{front_, empty, "--out", out_}, "empty.jsonl: line 1"},
-      {{front_, nobody, "--out", out_}, "nobody.jsonl: expected somebody whom both cameras see"},
-      {{nobody, side_, "--out", out_}, "nobody.jsonl: expected somebody whom both cameras see"},
+      {{front_, nobody, "--out", out_}, "nobody.jsonl: expected a person whom both cameras see"},
+      {{nobody, side_, "--out", out_}, "nobody.jsonl: expected a person whom both cameras see"},
       {{front_, side_, "--out", out_, "--extrinsics", room_}, "as many as there are recordings, 2"},
       {{front_, side_, "--out", out_, "--extrinsics", front_}, "front.jsonl"},
       {{front_, folder_ / "none.jsonl", "--out", out_}, "none.jsonl: no such file"}};
@@ -105,9 +105,13 @@ TEST_F(FuseCommand, RefusesWrongUsage) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{front_, "--out", out_}, "expected two or more recordings, found 1"},
       {{front_, side_}, "name --out or --save-extrinsics"},
-      {{front_, side_, "--out", side_}, "found what is to be read"},
+      {{front_, side_, "--out", side_},
+       "expected an output other than the inputs, found the input"},
       {{front_, side_, "--out", folder_ / "x.png"}, "x.png"},
       {{front_, side_, "--out", out_, "--save-extrinsics", folder_ / "x.bvh"}, "ends in .json"},
+      {{front_, front_, "--out", out_}, "front.jsonl: expected a recording of each camera"},
+      {{front_, side_, "--out", out_, "--extrinsics", room_, "--max-offset", "1"},
+       "--max-offset: expected --extrinsics auto with it"},
       {{front_, side_, "--out", out_, "--max-offset", "-1"}, "--max-offset"}};
   for (const auto& [words, said] : cases) {
     EXPECT_NE(Said(words, 2).find(said), std::string::npos) << said;

@@ -335,7 +335,8 @@ TEST_F(ReconstructCommand, RefusesToOverwriteItsInput) {
   recon::WriteSkeletons(in, Recording());
   const auto run = RunOssa({"reconstruct", in + "#observed", "--out", in, "--method", "none"});
   EXPECT_EQ(run.exit_status, 2);
-  EXPECT_NE(run.err.find(in + ": expected a new file, found what is to be read"), std::string::npos)
+  EXPECT_NE(run.err.find(in + ": expected an output other than the inputs, found the input " + in),
+            std::string::npos)
       << run.err;
 }
 
@@ -394,6 +395,14 @@ INSTANTIATE_TEST_SUITE_P(
                        2,
                        "--solver is not read by --method best: expected a method that does "
                        "(shum-2013, plantard-2016)"},
+        BadReconstruct{"weights_of_zero",
+                       {"IN", "--out", "OUT", "--method", "shum-2013", "--weights", "0,0,0,0"},
+                       2,
+                       "--weights: expected one above 0, found zeros"},
+        BadReconstruct{"scene_without_physics",
+                       {"IN", "--out", "OUT", "--physics", "off", "--scene", "s.toml"},
+                       2,
+                       "--physics off: expected no --scene with it"},
         BadReconstruct{"weights_of_best",
                        {"IN", "--out", "OUT", "--weights", "1,1,1,1"},
                        2,

@@ -195,7 +195,7 @@ TEST(TrackCommand, RefusesToOverwriteItsInput) {
     command.insert(command.end(), arguments.begin(), arguments.end());
     const CommandResult result = RunOssa(command);
     EXPECT_EQ(result.exit_status, 2) << result.err;
-    EXPECT_NE(result.err.find(arguments[2] + ": expected a new file"), std::string::npos)
+    EXPECT_NE(result.err.find(arguments[2] + ": expected an output other than"), std::string::npos)
         << result.err;
   }
 }

@@ -263,7 +263,8 @@ TEST(StudyCommand, RefusesAFileWithMissingOrUnknownParameters) {
   const std::string out = "out = \"" + (folder / "o").string() + "\"\n";
   EXPECT_NE(complaint("experiment = \"nonsense\"\n" + out).find("expected one of"),
             std::string::npos);
-  EXPECT_NE(complaint("experiment = \"sdk\"\nthreads = 0\n" + out).find("threads = 0"),
+  EXPECT_NE(complaint("experiment = \"sdk\"\nthreads = 0\n" + out)
+                .find("s.toml: line 2: expected threads"),
             std::string::npos);
 }
 
