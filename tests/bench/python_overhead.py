@@ -5,7 +5,7 @@ Usage: PYTHONPATH=BUILD/python python_overhead.py OSSA SOURCE [ROUNDS]
 
 Runs the command and the same in Python in turns, as whole programs that read SOURCE, track it and write
 the skeletons, and prints the processor time of both outside of the kernel, which a machine that is busy
-elsewhere changes least. The start is taken off: of both, the median time for the first frame alone. NumPy's
+elsewhere changes least. The start is subtracted: of both, the median time for the first frame alone. NumPy's
 BLAS has one thread: its others turn idly for some time after the import, now more, now less.
 """
 import os

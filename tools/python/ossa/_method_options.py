@@ -107,7 +107,7 @@ HELP = """neighbours, dimensions, steps, samples : int, optional
         Of liu-2016 and full-gp: reliable samples join the local models (True; algorithm 2).
     repair, complete, correct, filter, constant_bones : bool, optional
         Of best, to switch off one of its steps (all True): gross failures are told from motion;
-        joints in doubt come from the pose prior; learned systematic errors are taken off; each
+        joints in doubt come from the pose prior; learned systematic errors are corrected; each
         joint is filtered; bones keep their lengths."""
 
 
