@@ -26,7 +26,7 @@ constexpr std::streamoff kLargestJson = std::streamoff{16} << 20;  // bytes; cho
 
 std::string ReadText(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path, std::ios::ate);
-  if (!file) throw InputError(path.string() + ": cannot be read");
+  if (!file) throw InputError(path.string() + ": cannot be read: expected a camera file");
   if (file.tellg() > kLargestJson) {
     throw InputError(path.string() + ": expected a small JSON file, found " +
                      std::to_string(file.tellg()) + " bytes");

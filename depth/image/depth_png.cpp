@@ -26,7 +26,7 @@ std::vector<uint8_t> ReadBytes(const std::filesystem::path& path, size_t at_most
   std::vector<uint8_t> bytes(std::min(static_cast<size_t>(size), at_most));
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file) throw InputError(path.string() + ": cannot be read");
+  if (!file) throw InputError(path.string() + ": cannot be read: expected a PNG image");
   return bytes;
 }
 

@@ -89,7 +89,7 @@ DepthList ReadDepthList(const fs::path& folder) {
   if (!fs::is_regular_file(path, none)) return {};
   if (fs::file_size(path, none) > kLargest) return {};
   std::ifstream file = OpenFile(path);
-  if (!file) throw InputError(path.string() + ": cannot be read");
+  if (!file) throw InputError(path.string() + ": cannot be read: expected a list of frames");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     throw InputError(path.string() + ": expected text in UTF-8, found UTF-16: save it as UTF-8");

@@ -159,7 +159,7 @@ std::string ReadTextFile(const std::filesystem::path& path) {
   std::ifstream file = OpenFile(path);
   std::string text(size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
-  if (!file) throw InputError(path.string() + ": cannot be read");
+  if (!file) throw InputError(path.string() + ": cannot be read: expected a text file");
   return text;
 }
 

@@ -109,7 +109,9 @@ CLI::Option& FindOption(CLI::App& app, const DefaultValue& value, const std::str
   if (option != nullptr && value.name != "help") return *option;
   std::vector<std::string> names;
   for (const CLI::Option* known : app.get_options()) {
-    for (const std::string& name : known->get_lnames()) names.push_back(name);
+    for (const std::string& name : known->get_lnames()) {
+      if (name != "help") names.push_back(name);
+    }
   }
   const std::string meant = ClosestWord(value.name, names);
   throw InputError(fmt::format("{}: expected the name of an option of 'ossa {}', found '{}'{}",
@@ -141,7 +143,8 @@ std::optional<fs::path> DefaultsFile() {
 
 std::vector<DefaultValue> ReadDefaults(const fs::path& file) {
   std::ifstream in(file);
-  if (!in || fs::is_directory(file)) throw InputError(file.string() + ": cannot be read");
+  if (!in || fs::is_directory(file))
+    throw InputError(file.string() + ": cannot be read: expected a TOML file of defaults");
   std::vector<DefaultValue> defaults;
   std::string text, command;
   for (int line = 1; std::getline(in, text); ++line) {

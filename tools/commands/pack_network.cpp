@@ -59,7 +59,7 @@ size_t ParseArrayLength(const std::string& header, const std::string& path) {
 
 std::vector<float> ReadNumbers(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path + ": cannot be read");
+  if (!file) throw InputError(path + ": cannot be read: expected a NumPy file (.npy)");
   const std::string header = ReadNpyHeader(file, path);
   const size_t count = ParseArrayLength(header, path);
   const size_t begin = kNpyStart.size() + 2 + header.size();
@@ -69,7 +69,7 @@ std::vector<float> ReadNumbers(const std::string& path) {
   std::vector<float> numbers(count);
   file.read(reinterpret_cast<char*>(numbers.data()),
             static_cast<std::streamsize>(count * sizeof(float)));
-  if (!file) throw InputError(path + ": cannot be read");
+  if (!file) throw InputError(path + ": cannot be read: expected a NumPy file (.npy)");
   return numbers;
 }
 

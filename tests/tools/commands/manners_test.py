@@ -227,7 +227,7 @@ class Defaults(unittest.TestCase):
                                     ("[track]\nusers = 9\n", 2, "users"),
                                     ("[track]\nnear = 1\n", 2, "true or false"),
                                     ("[track]\nusers = 1\nusers = 2\n", 3, "each option once"),
-                                    ("[track]\nhelp = true\n", 2, "found 'help'")):
+                                    ("[track]\nhelp = true\n", 2, "found 'help'\n")):
             result, _ = self.track(config)
             self.assertEqual(result.returncode, 1, config)
             self.assertIn(f"{self.file}: line {line}: ", result.stderr, config)
