@@ -59,6 +59,22 @@ def test_given_camera_overrides_that_of_the_source(camera, clip):
     assert ossa.open(clip, camera=camera).camera.fx != ossa.open(clip).camera.fx
 
 
+def test_camera_may_be_a_file(clip, tmp_path):
+    file = tmp_path / "cameras.txt"
+    file.write_text("1 PINHOLE 320 240 300 310 160.5 120.5\n")
+    camera = ossa.open(clip / "depth", camera=file).camera
+    assert (camera.fx / camera.width, camera.fy / camera.height) == pytest.approx((300 / 320, 310 / 240))
+
+
+@pytest.mark.parametrize(
+    "option", [{"camera": "x"}, {"depth_format": "x"}, {"depth_scale": 1, "depth_format": "disparity"}]
+)
+def test_refusals_name_the_argument_as_python_does(option, clip):
+    with pytest.raises(ossa.InputError) as caught:
+        ossa.open(clip / "depth", **option)
+    assert list(option)[0] in str(caught.value) and "--" not in str(caught.value)
+
+
 def test_rotation_of_a_source_is_kept_in_its_camera(clip):
     on_its_side = ossa.Camera(290, 290, 160, 120, rotate=90)
     assert next(ossa.open(clip, camera=on_its_side)).camera.rotate == 90

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from typing import Any, Iterable, Sequence
 
 import numpy as np
@@ -30,6 +31,11 @@ def found(value: object) -> str:
 def refuse(name: str, expected: str, value: object) -> InputError:
     """The error to raise."""
     return InputError(f"{name}: expected {expected}, found {found(value)}")
+
+
+def of_python(error: InputError) -> InputError:
+    """The error about an option of the command, with the argument's name."""
+    return InputError(re.sub(r"^--([a-z-]+):", lambda m: m[1].replace("-", "_") + ":", str(error)))
 
 
 def number(name: str, value: Any, least: float, most: float) -> float:

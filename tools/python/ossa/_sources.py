@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import time
 from types import TracebackType
 from typing import Any, Callable, Iterator, NamedTuple, Optional, Union
@@ -47,7 +48,10 @@ class Source(Iterator[DepthImage]):
         self._dropped = 0
         self._last_camera: tuple[Any, Optional[Camera]] = (None, None)
         self.notes: list[str] = []
-        self._native = _native.Source(name, options)
+        try:
+            self._native = _native.Source(name, options)
+        except _native.InputError as error:
+            raise _check.of_python(error) from None
         self._take_notes()
 
     def __iter__(self) -> Source:
@@ -147,9 +151,12 @@ def _camera_option(camera: Any) -> Union[str, tuple[Any, ...]]:
             return camera._preset
         numbers = (float(camera.fx), float(camera.fy), float(camera.cx), float(camera.cy))
         return numbers + (camera.width or 0, camera.height or 0)
-    if isinstance(camera, str):
-        name = _check.text("camera", camera)
-        _native.parse_camera(name, 640, 480)
+    if isinstance(camera, (str, os.PathLike)):
+        name = _check.text("camera", os.fspath(camera))
+        try:
+            _native.parse_camera(name, 640, 480)
+        except _native.InputError as error:
+            raise _check.of_python(error) from None
         return name
     presets = ", ".join(CAMERA_PRESETS)
     raise _check.refuse("camera", f"an ossa.Camera, {presets} or 'fx,fy,cx,cy'", camera)
@@ -157,7 +164,7 @@ def _camera_option(camera: Any) -> Union[str, tuple[Any, ...]]:
 
 def open(  # noqa: A001 - as the command's SOURCE is opened
     source: PathLike,
-    camera: Union[Camera, str, None] = None,
+    camera: Union[Camera, PathLike, None] = None,
     depth_scale: Optional[float] = None,
     fps: Optional[float] = None,
     rotate: Union[int, str] = "auto",
@@ -176,9 +183,9 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
         "openni:" (first device), "openni:URI", FILE.oni, FILE.mkv (Azure Kinect, Femto), FILE.bag
         or "FILE.bag#/topic" (ROS 1, RealSense), a 16-bit PNG or a folder of them, or a data set of
         `ossa render`.
-    camera : ossa.Camera or str, optional
-        A preset's name, "fx,fy,cx,cy" in pixels, or a file with intrinsics (.json, .yaml, .xml), as
-        of `ossa track --camera`. Left out: the source's own, else a preset by the image size, with
+    camera : ossa.Camera, str or path, optional
+        A preset's name, "fx,fy,cx,cy" in pixels, or a file with intrinsics (.json, .yaml, .xml,
+        .txt), as of `ossa track --camera`. Left out: the source's own, else a preset by the image size, with
         a note in `notes`.
     depth_scale : float, optional
         Units per metre of a recording's depths, 1e-3 to 1e6. Left out: its own, else 1000,
