@@ -13,6 +13,7 @@ bool SameSurface(float a_m, float b_m, float tolerance = 1.0F) {
 
 bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
                  const BackgroundOptions& options) {
+  if (state.width != grid.width || state.height != grid.height) return false;
   int known = 0, moved = 0;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
@@ -57,11 +58,15 @@ std::vector<uint8_t> FindForeground(const PointGrid& grid, const BackgroundState
 
 }  // namespace
 
+void ForgetIfSensorMoved(const PointGrid& grid, BackgroundState& state,
+                         const BackgroundOptions& options) {
+  if (SensorMoved(grid, state, options)) state = {};
+}
+
 void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
-                     BackgroundState& state, const BackgroundOptions& options) {
+                     BackgroundState& state) {
   const auto cells = static_cast<size_t>(grid.cells());
-  if (state.width != grid.width || state.height != grid.height ||
-      SensorMoved(grid, state, options)) {
+  if (state.width != grid.width || state.height != grid.height) {
     state = {grid.width, grid.height, std::vector<float>(cells, 0.0F),
              std::vector<uint8_t>(cells, 0)};
   }

@@ -170,6 +170,23 @@ std::optional<FloorPlane> Confirmed(const std::vector<Measured>& points, Vector4
   return FloorPlane{plane.cast<double>()};
 }
 
+FloorPlane Mix(const FloorPlane& before, const FloorPlane& now, double weight) {
+  const Eigen::Vector4d mixed = (1 - weight) * before.coefficients + weight * now.coefficients;
+  return {mixed / mixed.head<3>().norm()};
+}
+
+// Whether the mean over the frames still is this frame's floor. If the sensor was moved it is not,
+// and what is left of the floor above the mean would count as somebody's feet or as furniture.
+bool FitsAsWell(const std::vector<Measured>& points, const FloorPlane& mean,
+                const FloorPlane& now) {
+  // Share of the points on this frame's plane. By hand: a resting sensor has 0.999 and more in
+  // rendered rooms, one tilted by 5 degrees none.
+  constexpr double kLeastShare = 0.9;
+  const int on_mean = Score(points, mean.coefficients.cast<float>()).inliers;
+  const int on_now = Score(points, now.coefficients.cast<float>()).inliers;
+  return on_mean >= kLeastShare * on_now;
+}
+
 // From a cell to the one `rows` below, if measured.
 Vector3f Along(const PointGrid& grid, int x, int y, int rows) {
   const int other = grid.cell(x, std::clamp(y + rows, 0, grid.height - 1));
@@ -224,10 +241,8 @@ std::optional<FloorPlane> FindFloor(const PointGrid& grid, FloorState& state,
     return std::nullopt;
   }
   if (state.plane && state.missed == 0) {
-    Eigen::Vector4d mixed = (1 - options.smoothing) * state.plane->coefficients +
-                            options.smoothing * found->coefficients;
-    const bool jumped = (state.plane->coefficients - found->coefficients).norm() > 0.15;
-    found->coefficients = jumped ? found->coefficients : mixed / mixed.head<3>().norm();
+    const FloorPlane mean = Mix(*state.plane, *found, options.smoothing);
+    if (FitsAsWell(points, mean, *found)) found = mean;
   }
   state.plane = found;
   state.missed = 0;

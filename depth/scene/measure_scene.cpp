@@ -47,6 +47,7 @@ Scene MeasureScene(const DepthFrame& frame, SceneState& state, const SceneOption
   scene.floor = FindFloor(scene.grid, state.floor, options.floor);
   if (scene.floor) scene.grid.up = scene.floor->coefficients.head<3>().cast<float>();
   scene.surfaces = FindRoomSurfaces(scene.grid, scene.floor, options.furniture);
+  ForgetIfSensorMoved(scene.grid, state.background, options.background);
   scene.background = CompareWithBackground(scene.grid, state.background, options.background);
   return scene;
 }

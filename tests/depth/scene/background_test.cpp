@@ -66,7 +66,10 @@ void See(float z_m, int frames, BackgroundState& state, bool claimed = false) {
   frame.depth_mm.assign(40 * 30, static_cast<uint16_t>(std::lround(1000 * z_m)));
   const PointGrid grid = MakePointGrid(frame.view(), frame.camera, 6.0F);
   const std::vector<uint8_t> claims(static_cast<size_t>(grid.cells()), claimed ? 1 : 0);
-  for (int f = 0; f < frames; ++f) LearnBackground(grid, claims, state);
+  for (int f = 0; f < frames; ++f) {
+    ForgetIfSensorMoved(grid, state);
+    LearnBackground(grid, claims, state);
+  }
 }
 
 // Whether a wall at this depth is the background.
@@ -142,12 +145,45 @@ TEST(Background, IsUnknownForAnImageOfAnotherHeight) {
   }
 }
 
-// If more than half of the known cells are suddenly farther away, it is not a person who left.
+// If all known cells are suddenly farther away, it is not a person who left.
 TEST(Background, IsResetWhenTheSensorMoves) {
   BackgroundState state;
   See(3.0F, 60, state);
   See(4.0F, 1, state, true);
   EXPECT_EQ(std::count(state.steady.begin(), state.steady.end(), 0), 40 * 30);
+}
+
+// A room whose walls meet in front of a sensor that is turned to the left by this angle; with
+// people.
+PointGrid TurnedBy(double yaw_rad, const std::vector<CapsulePose>& people = {}) {
+  CapsuleScene scene;
+  scene.people = people;
+  for (const double wall_rad : {-0.7, 0.8}) {
+    const double angle_rad = wall_rad + yaw_rad;
+    scene.planes.push_back({{std::sin(angle_rad), 0, -std::cos(angle_rad)}, 3.0});
+  }
+  scene.planes.push_back({{0, 1, 0}, 1.0});
+  return GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
+}
+
+// Whether a model that knows the room is kept when the sensor sees this.
+bool IsKept(const PointGrid& now) {
+  BackgroundState state;
+  const PointGrid before = TurnedBy(0);
+  const std::vector<uint8_t> nobody(static_cast<size_t>(before.cells()), 0);
+  for (int f = 0; f < 30; ++f) LearnBackground(before, nobody, state);
+  ForgetIfSensorMoved(now, state);
+  return state.width > 0;
+}
+
+// 5 degrees: a knock against a tripod.
+TEST(Background, IsForgottenWhenTheSensorIsTurnedByFiveDegrees) {
+  for (const double yaw_rad : {-0.087, 0.087}) EXPECT_FALSE(IsKept(TurnedBy(yaw_rad))) << yaw_rad;
+}
+
+TEST(Background, IsKeptWhenPeopleCome) {
+  EXPECT_TRUE(IsKept(TurnedBy(0)));
+  EXPECT_TRUE(IsKept(TurnedBy(0, {PersonAt(0, 1.0), PersonAt(0.6, 1.5)})));
 }
 
 TEST(ForegroundArea, ExcludesRims) {

@@ -95,6 +95,21 @@ TEST(FindFloor, IsSteadyUntilTheSensorIsMoved) {
   EXPECT_EQ(lifted_m, height_m(1.4, alone));
 }
 
+// 5 degrees: a knock against a tripod. A mean with the floor before would lie above a part of this
+// one.
+TEST(FindFloor, FollowsATiltedSensorAtOnce) {
+  for (const double tilt_rad : {-0.087, 0.087}) {
+    const Eigen::Vector3d up(0, std::cos(tilt_rad), -std::sin(tilt_rad));
+    CapsuleScene scene;
+    scene.planes = {{up, 1.0}, {{0, 0, -1}, 4.5}};
+    FloorState state;
+    for (int f = 0; f < 3; ++f) FindFloor(OverTheFloor(1.0), state);
+    const auto floor = FindFloor(GridOf(tests::Render(scene, KinectV1Camera(320, 240))), state);
+    ASSERT_TRUE(floor) << tilt_rad;
+    EXPECT_LT((floor->coefficients.head<3>() - up).norm(), 0.005) << tilt_rad;  // quantisation
+  }
+}
+
 TEST(FindFloor, IsRememberedForHalfASecondOutOfView) {
   FloorState state;
   FindFloor(OverTheFloor(1.0), state);
