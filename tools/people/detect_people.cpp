@@ -139,6 +139,8 @@ PeopleOptions PeopleOptionsFromAbove() {
 bool NeedsSurfaceCheck(const Detection& detection, const InitiationOptions& options) {
   const Rule rule = detection.decision.rule;
   const bool first = rule == Rule::kFreshScene || rule == Rule::kPieceWithHead;
+  if (rule == Rule::kEnoughObservations)
+    return detection.was_withdrawn || detection.verifier == Verifier::kSurfaceFit;
   if (!first || detection.age > 1) return false;
   return detection.verifier == Verifier::kSurfaceFit ||
          (detection.verifier == Verifier::kForest && detection.score < options.confident_score);
@@ -151,8 +153,9 @@ bool IsPoorBodyFit(const ExplainedShares& fit, double person_score, bool beside_
   return beside_person && all < options.min_fit_score_beside_person;
 }
 
-void WithdrawPerson(int id, PeopleState& state, depth::Image<uint8_t>& users,
-                    FrameDecisions& decisions) {
+void WithdrawPerson(const Person& person, double time_s, PeopleState& state,
+                    depth::Image<uint8_t>& users, FrameDecisions& decisions) {
+  const int id = person.id;
   const auto is_theirs = [id](const auto& entry) { return entry.id == id; };
   std::erase_if(state.tracks.tracks, is_theirs);
   ReleaseId(id, state.tracks);
@@ -163,6 +166,9 @@ void WithdrawPerson(int id, PeopleState& state, depth::Image<uint8_t>& users,
     decision.track = 0;
   }
   std::replace(users.data.begin(), users.data.end(), static_cast<uint8_t>(id), uint8_t{0});
+  TentativeTrack track = StartTentative(person.detection, time_s);
+  track.was_rejected = track.was_withdrawn = true;
+  state.tentative.push_back(std::move(track));
 }
 
 }  // namespace ossa::people

@@ -38,7 +38,8 @@ struct PeopleInFrame {
 PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& classifier,
                            PeopleState& state, const PeopleOptions& options = {});
 
-/// Whether a person accepted in a single frame must be verified by the surface fit.
+/// Whether a new person must be verified by the surface fit: one accepted in a single frame, or one
+/// accepted after several whom the network contests or a fit refused before.
 bool NeedsSurfaceCheck(const Detection& detection, const InitiationOptions& options);
 
 /// How much of a candidate the fitted body explains, shares in [0, 1] (recon::SurfaceFit).
@@ -53,7 +54,8 @@ bool IsPoorBodyFit(const ExplainedShares& fit, double person_score, bool beside_
                    const InitiationOptions& options);
 
 /// Revokes the acceptance of a person in this frame: deletes their track and their user pixels.
-void WithdrawPerson(int id, PeopleState& state, depth::Image<uint8_t>& users,
-                    FrameDecisions& decisions);
+/// They become a tentative track that must be verified again.
+void WithdrawPerson(const Person& person, double time_s, PeopleState& state,
+                    depth::Image<uint8_t>& users, FrameDecisions& decisions);
 
 }  // namespace ossa::people

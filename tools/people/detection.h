@@ -38,6 +38,7 @@ struct Detection {
   int age = 1;             // detections of the track, this one included
   bool is_piece = false;   // a segment around one of several heads
   bool is_joined = false;  // merged from regions that are no person by themselves
+  bool was_withdrawn = false;  // accepted before, and withdrawn because no fitted body explained it
   Verifier verifier = Verifier::kForest;
   std::optional<recon::NetworkPose> pose{};  // joints by the pose network, where it was applied
   Decision decision;                         // why it was accepted or not

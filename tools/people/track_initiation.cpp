@@ -61,18 +61,6 @@ TentativeTrack* FindTentative(const Candidate& candidate, double time_s,
                                  : nullptr;
 }
 
-TentativeTrack StartTentative(const Detection& detection, double time_s) {
-  const Region& region = detection.candidate.region;
-  TentativeTrack track;
-  track.cells = region.cells;
-  track.mean_m = track.first_mean_m = region.mean_m;
-  track.first_m2 = region.area_m2;
-  track.last_seen_s = time_s;
-  track.mean_score = detection.score;
-  track.is_foreground = IsForeground(detection.candidate);
-  return track;
-}
-
 // Adds an observation.
 void UpdateTentative(const Detection& detection, double time_s, const InitiationOptions& options,
                      TentativeTrack& track) {
@@ -199,6 +187,7 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
   if (before->mean_score < needed)
     return DescribeTentative(detection, *before, Rule::kLowMeanScore, needed);
   detection.score = before->mean_score;
+  detection.was_withdrawn = before->was_withdrawn;
   const Decision decision =
       DescribeTentative(detection, *before, Rule::kEnoughObservations, needed);
   tentative.erase(tentative.begin() + (before - tentative.data()));
@@ -244,6 +233,18 @@ class RetrySchedule {
 };
 
 }  // namespace
+
+TentativeTrack StartTentative(const Detection& detection, double time_s) {
+  const Region& region = detection.candidate.region;
+  TentativeTrack track;
+  track.cells = region.cells;
+  track.mean_m = track.first_mean_m = region.mean_m;
+  track.first_m2 = region.area_m2;
+  track.last_seen_s = time_s;
+  track.mean_score = detection.score;
+  track.is_foreground = IsForeground(detection.candidate);
+  return track;
+}
 
 std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool fresh_scene,
                                         double time_s, const PeopleOptions& options,

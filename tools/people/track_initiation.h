@@ -20,9 +20,13 @@ struct TentativeTrack {
   int observations = 1;
   int unbroken_observations = 1;  // consecutive ones, to the last
   bool was_rejected = false;      // it was accepted before, and rejected later
+  bool was_withdrawn = false;     // ... because no fitted body explained it
   bool was_foreground = false;    // some of it was foreground
   bool is_foreground = false;     // most of it was foreground in the last observation
 };
+
+/// The first observation of a tentative track.
+TentativeTrack StartTentative(const Detection& detection, double time_s);
 
 /// The candidates to classify in this frame, in their order. The others go to `decided`. Deletes
 /// old tentative tracks.

@@ -164,8 +164,8 @@ std::vector<Person*> Tracker::Impl::RememberPersons(const std::vector<Body>& bod
   return in_view;
 }
 
-// Verifies people who were accepted in a single frame: furniture may have a high score once, but no
-// body's surface explains it. `seen` and result.bodies are in the same order.
+// Verifies new people: furniture may have a high score once, but no body's surface explains it.
+// `seen` and result.bodies are in the same order.
 void Tracker::Impl::WithdrawUnlikeBodies(const std::vector<people::Person>& seen,
                                          BodyFrame& result) {
   const people::InitiationOptions& initiation = people_options.initiation;
@@ -179,7 +179,7 @@ void Tracker::Impl::WithdrawUnlikeBodies(const std::vector<people::Person>& seen
     const people::ExplainedShares fit{body.fit->explained, body.fit->score};
     if (!people::IsPoorBodyFit(fit, body.person_score, has_certain_person, initiation)) continue;
     ClearParts(body.id, result);
-    people::WithdrawPerson(body.id, people_state, result.users, result.decisions);
+    people::WithdrawPerson(seen[i], result.time_s, people_state, result.users, result.decisions);
     persons.erase(body.id);
     result.bodies.erase(result.bodies.begin() + static_cast<std::ptrdiff_t>(i));
   }

@@ -379,7 +379,7 @@ TEST(Withdrawal, RemovesTrackAndPixels) {
   decisions.tracks[0].id = 1;
   decisions.tracks[1].id = 2;
   state.tracks.next_id = 3;
-  WithdrawPerson(2, state, users, decisions);
+  WithdrawPerson({2, {}}, 0.0, state, users, decisions);
   ASSERT_EQ(state.tracks.tracks.size(), 1U);
   EXPECT_EQ(state.tracks.tracks[0].id, 1);
   EXPECT_EQ(users.data, (std::vector<uint8_t>{1, 0, 0}));
@@ -387,6 +387,34 @@ TEST(Withdrawal, RemovesTrackAndPixels) {
   EXPECT_EQ(decisions.candidates[0].track, 0);
   EXPECT_EQ(decisions.tracks.size(), 1U);
   EXPECT_EQ(state.tracks.next_id, 2) << "of who comes next";
+}
+
+// An object that is no person, however certain the forest is: it stands where it is and is seen
+// again in every frame.
+TEST_F(NewPerson, WithdrawnIsVerifiedAgainBeforeTheyReturn) {
+  PeopleState state;
+  depth::Image<uint8_t> users(1, 1);
+  FrameDecisions decisions;
+  WithdrawPerson({1, Detect({.score = 0.97})}, 0.0, state, users, decisions);
+  for (int f = 1; f < 10; ++f) {
+    Detection again = Detect({.score = 0.97});
+    if (!DecidePerson(false, f / 30.0, options_, state.tentative, again)) continue;
+    EXPECT_TRUE(NeedsSurfaceCheck(again, options_)) << f;
+    WithdrawPerson({1, again}, f / 30.0, state, users, decisions);
+  }
+  EXPECT_EQ(state.tentative.size(), 1U);
+}
+
+// The network contests what the forest is confident of.
+TEST_F(NewPerson, ContestedIsVerifiedByTheSurfaceAfterSeveralFrames) {
+  std::vector<TentativeTrack> tentative;
+  bool is_accepted = false;
+  for (int f = 0; f < 4 && !is_accepted; ++f) {
+    Detection contested = Detect({.score = 0.97, .verifier = Verifier::kSurfaceFit});
+    is_accepted = DecidePerson(false, f / 30.0, options_, tentative, contested);
+    EXPECT_EQ(NeedsSurfaceCheck(contested, options_), is_accepted);
+  }
+  EXPECT_TRUE(is_accepted);
 }
 
 // A person accepted in the same frame keeps their id, and the next one has another.
@@ -398,7 +426,7 @@ TEST(Withdrawal, KeepsTheIdsOfOthers) {
   state.tracks.next_id = 3;
   depth::Image<uint8_t> users(1, 1);
   FrameDecisions decisions;
-  WithdrawPerson(1, state, users, decisions);
+  WithdrawPerson({1, {}}, 0.0, state, users, decisions);
   EXPECT_EQ(state.tracks.next_id, 3);
 }
 
