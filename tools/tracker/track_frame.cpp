@@ -30,14 +30,19 @@ unsigned FindClippedEdges(const depth::DepthFrame& frame, const std::vector<int3
   return edges;
 }
 
-// The highest person score in a single frame, without state; 0 without people.
-double ScorePeople(const depth::DepthFrame& frame, const people::PersonClassifier& classifier,
-                   const people::PeopleOptions& options) {
+// The person with the highest score in a single frame, without state.
+TurnScore ScorePeople(const depth::DepthFrame& frame, const people::PersonClassifier& classifier,
+                      const people::PeopleOptions& options) {
   people::PeopleState empty_state;
-  double best = 0.0;
+  TurnScore best;
   for (const people::Person& person :
        people::DetectPeople(frame, classifier, empty_state, options).people) {
-    best = std::max(best, person.detection.score);
+    if (person.detection.score <= best.score) continue;
+    best.score = person.detection.score;
+    const people::Candidate& candidate = person.detection.candidate;
+    const Eigen::Vector3f extent_m = candidate.region.high_m - candidate.region.low_m;
+    best.is_doubtful =
+        FindClippedEdges(frame, candidate.pixels) != 0 || extent_m.x() > extent_m.y();
   }
   return best;
 }
@@ -106,14 +111,15 @@ bool Tracker::Impl::ConfirmCeilingView(const depth::DepthFrame& frame, const Bod
   }
   if (!ceiling_forest) ceiling_forest = LoadCeilingForest(models);
   const auto above_targets = people::FindJointTargets(*ceiling_forest, models.ceiling_file);
-  const double score = ScorePeople(frame, {*ceiling_forest, above_targets}, from_above);
+  const double score = ScorePeople(frame, {*ceiling_forest, above_targets}, from_above).score;
   const bool is_sure = score >= (tracked.floor ? mount.sure_despite_floor : mount.sure);
   return mount_finder.Confirm(is_sure ? View::kFromAbove : View::kLevel);
 }
 
 void Tracker::Impl::FindUpright(const depth::DepthFrame& frame) {
   const bool changed = upright.Update(frame, [this](const depth::DepthFrame& looked, int quarters) {
-    return ScorePeople(depth::Turned(looked, quarters), {model, targets}, people_options);
+    return ScorePeople(depth::Turned(looked, quarters), {model, targets, skeleton.pose_network},
+                       people_options);
   });
   if (changed) DeleteTracks();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -90,15 +91,16 @@ void TurnBack(BodyFrame& frame, int quarters) {
 }
 
 // Scores at most `most` rotations, the current one first; if that has a certain person, the others
-// are skipped. True when the search is complete.
+// are skipped, unless the first person is doubtful. True when the search is complete.
 bool UprightFinder::ScoreRotations(const depth::DepthFrame& frame, int most,
                                    const ScoreOfTurn& score) {
   if (scored_ == 0) scores_ = {};
   for (; most > 0 && scored_ < kTurns; --most) {
     const int turn = (quarters_ + scored_++) % kTurns;
-    double& found = scores_[static_cast<size_t>(turn)];
-    found = score(frame, turn);
-    if (turn == quarters_ && found >= options_.sure) scored_ = kTurns;
+    const TurnScore found = score(frame, turn);
+    scores_[static_cast<size_t>(turn)] = found.score;
+    const bool decides = found.score >= options_.sure && (sure_ || !found.is_doubtful);
+    if (turn == quarters_ && contested_ == 0 && decides) scored_ = kTurns;
   }
   return scored_ == kTurns;
 }
@@ -112,12 +114,37 @@ int UprightFinder::FindBestTurn() const {
   return most >= options_.sure && most > present + options_.clearly ? best : -1;
 }
 
+bool UprightFinder::IsContested() const {
+  return !sure_ &&
+         std::ranges::count_if(scores_, [&](double score) { return score >= options_.sure; }) > 1;
+}
+
+std::optional<int> UprightFinder::CompareMeans() {
+  ++contested_;
+  for (size_t turn = 0; turn < sums_.size(); ++turn) sums_[turn] += scores_[turn];
+  auto order = sums_;
+  std::ranges::sort(order, std::greater<>());
+  const int best = static_cast<int>(std::max_element(sums_.begin(), sums_.end()) - sums_.begin());
+  const bool is_clear = order[0] - order[1] > options_.clearly * contested_;
+  if (is_clear && (best == quarters_ || contested_ >= options_.agreeing)) return best;
+  if (contested_ >= options_.most_contested) return quarters_;
+  return std::nullopt;
+}
+
+// True if the rotation changed.
+bool UprightFinder::Choose(int turn) {
+  sure_ = true;
+  agreeing_ = contested_ = 0;
+  sums_ = {};
+  return std::exchange(quarters_, turn) != turn;
+}
+
 bool UprightFinder::Update(const depth::DepthFrame& frame, const ScoreOfTurn& score) {
   const double since_s = frame.time_s - searched_s_, alone_s = frame.time_s - tracked_s_;
-  const bool in_doubt = agreeing_ > 0 || !std::isfinite(since_s);
+  const bool in_doubt = agreeing_ > 0 || contested_ > 0 || !std::isfinite(since_s);
   const double step_s = frame.time_s - std::exchange(previous_s_, frame.time_s);
   const bool is_shared = !in_doubt && step_s >= 0 && step_s < options_.shared_s;
-  if (alone_s >= 0 && alone_s < options_.every_s) {
+  if (contested_ == 0 && alone_s >= 0 && alone_s < options_.every_s) {
     scored_ = 0;
     return false;
   }
@@ -125,17 +152,14 @@ bool UprightFinder::Update(const depth::DepthFrame& frame, const ScoreOfTurn& sc
   if (scored_ == 0) searched_s_ = frame.time_s;
   if (!ScoreRotations(frame, is_shared ? 1 : kTurns, score)) return false;
   scored_ = 0;
+  if (contested_ > 0 || IsContested()) {
+    const auto turn = CompareMeans();
+    return turn && Choose(*turn);
+  }
   const int best = FindBestTurn();
   agreeing_ = best >= 0 && (agreeing_ == 0 || best == candidate_) ? agreeing_ + 1 : 0;
   candidate_ = best;
-  if (best == quarters_) {
-    sure_ = true;
-    agreeing_ = 0;
-  }
-  if (agreeing_ < options_.agreeing) return false;
-  agreeing_ = 0;
-  sure_ = true;
-  return std::exchange(quarters_, best) != best;
+  return (best == quarters_ || agreeing_ >= options_.agreeing) && Choose(best);
 }
 
 }  // namespace ossa::tracker

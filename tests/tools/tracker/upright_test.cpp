@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -173,13 +174,16 @@ TEST(TurnBack, RotatesBordersBackToo) {
   EXPECT_EQ(frame.bodies[0].clipped_edges, kClippedLeft | kClippedTop);
 }
 
+// The score of somebody whom the image cuts off.
+TurnScore Cut(double score) { return {.score = score, .is_doubtful = true}; }
+
 // Searches frames a second apart, with these person scores.
 int TurnsAfter(UprightFinder& finder, int frames, std::vector<double> scores, double from_s = 0) {
   for (int i = 0; i < frames; ++i) {
     depth::DepthFrame frame;
     frame.time_s = from_s + 1.5 * i;
     finder.Update(frame, [&](const depth::DepthFrame&, int turn) {
-      return scores[static_cast<size_t>(turn)];
+      return Cut(scores[static_cast<size_t>(turn)]);
     });
   }
   return finder.quarters();
@@ -195,6 +199,32 @@ TEST(UprightFinder, ACertainUprightPersonDecides) {
   UprightFinder finder;
   EXPECT_EQ(TurnsAfter(finder, 9, {0.85, 0.99, 0, 0}), 0);
   EXPECT_TRUE(finder.is_sure());
+}
+
+// Person scores of a man at a desk, near and cut off by the image, in the first frames of the real
+// video rotated by 90 degrees; the second rotation is upright.
+constexpr std::array<std::array<double, 4>, 4> kNear = {{{0.98, 1.0, 0.0, 0.69},
+                                                         {0.0, 1.0, 0.0, 0.96},
+                                                         {0.99, 1.0, 0.0, 0.66},
+                                                         {0.99, 1.0, 0.0, 0.64}}};
+
+// Searches the first frames of kNear, in all of which a person is tracked; `upright`: the rotation
+// in which they are upright.
+int TurnsNear(int upright) {
+  UprightFinder finder;
+  for (size_t i = 0; i < kNear.size(); ++i) {
+    depth::DepthFrame frame;
+    frame.time_s = static_cast<double>(i) / 30.0;
+    finder.Update(frame, [&](const depth::DepthFrame&, int turn) {
+      return Cut(kNear[i][static_cast<size_t>((turn - upright + 5) % 4)]);
+    });
+    finder.NoteTracked(frame.time_s);
+  }
+  return finder.quarters();
+}
+
+TEST(UprightFinder, MeansDecideIfSeveralRotationsShowACertainPerson) {
+  for (const int upright : {0, 1, 2, 3}) EXPECT_EQ(TurnsNear(upright), upright);
 }
 
 TEST(UprightFinder, LowScoresDecideNothing) {
@@ -219,7 +249,7 @@ int CountScored(UprightFinder& finder, int frames, const std::vector<double>& sc
     frame.time_s = i / 30.0;
     finder.Update(frame, [&](const depth::DepthFrame&, int turn) {
       ++asked;
-      return scores[static_cast<size_t>(turn)];
+      return TurnScore{.score = scores[static_cast<size_t>(turn)]};
     });
   }
   return asked;
@@ -232,7 +262,7 @@ TEST(UprightFinder, FramesOfARecordingShareASearchWithoutPeople) {
   for (size_t i = 0; i < asked.size(); ++i) {
     depth::DepthFrame frame;
     frame.time_s = static_cast<double>(i) / 30.0;
-    finder.Update(frame, [&](const depth::DepthFrame&, int) { return ++asked[i], 0.0; });
+    finder.Update(frame, [&](const depth::DepthFrame&, int) { return ++asked[i], TurnScore{}; });
   }
   EXPECT_EQ(asked[0], 4);
   EXPECT_EQ(std::accumulate(asked.begin() + 1, asked.end(), 0), 4);
@@ -260,6 +290,13 @@ TEST(UprightFinder, SearchesAgainAtOnceAfterAPersonInAnotherRotation) {
   EXPECT_EQ(sooner.quarters(), 2);
 }
 
+// The start of every recording would take three frames longer.
+TEST(UprightFinder, ScoresOneRotationOfAFirstPersonWhoIsWhole) {
+  UprightFinder finder;
+  EXPECT_EQ(CountScored(finder, 1, {0.9, 0.9, 0.9, 0.9}), 1);
+  EXPECT_TRUE(finder.is_sure());
+}
+
 TEST(UprightFinder, SearchesNothingWhileAPersonIsTracked) {
   UprightFinder finder;
   int asked = 0;
@@ -267,7 +304,7 @@ TEST(UprightFinder, SearchesNothingWhileAPersonIsTracked) {
     depth::DepthFrame frame;
     frame.time_s = i / 30.0;
     finder.NoteTracked(frame.time_s);
-    finder.Update(frame, [&](const depth::DepthFrame&, int) { return ++asked, 0.0; });
+    finder.Update(frame, [&](const depth::DepthFrame&, int) { return ++asked, TurnScore{}; });
   }
   EXPECT_EQ(asked, 0);
 }
