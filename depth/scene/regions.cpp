@@ -49,6 +49,7 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
     if (large) walls.push_back(&piece);
     if (large || of_wall) {
       for (const int cell : piece.cells) shape.room[static_cast<size_t>(cell)] = 1;
+      for (const int cell : piece.cells) shape.in_plane[static_cast<size_t>(cell)] = of_wall;
     } else if (floor) {
       for (const int cell : LowFront(grid, *floor, pieces, piece, options))
         shape.room[static_cast<size_t>(cell)] = 1;
@@ -105,6 +106,7 @@ RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane
                            const FurnitureOptions& options) {
   const auto cells = static_cast<size_t>(grid.cells());
   RoomShape shape{std::vector<uint8_t>(cells, 0),
+                  std::vector<uint8_t>(cells, 0),
                   std::vector<uint8_t>(cells, 0),
                   std::vector<uint8_t>(cells, 0),
                   {},

@@ -44,6 +44,7 @@ struct RoomShape {
   std::vector<uint8_t> floor;
   std::vector<uint8_t> room;      // the floor, and planes too large for a person: walls,
                                   // ceilings, doors, table tops
+  std::vector<uint8_t> in_plane;  // of the room only because it is in the plane of such a surface
   std::vector<uint8_t> flat;      // on a flat piece of any size
   std::vector<FlatPlane> planes;  // of all flat pieces
   std::vector<int> plane_of;      // plane index of each cell, -1 for none

@@ -126,6 +126,7 @@ struct PredictionOptions {
   float same_depth_m = 0.12F;     // between a cell's depths in two frames
   size_t overlap_fraction = 4;    // a track needs an overlap of 1 / this of its or the candidate's
                                   // cells
+  double in_plane_share = 0.33;   // of a track's cells in the plane of furniture; more are a person
   float return_gate_m = 0.6F;     // a step: from the predicted place of a lost track,
   float return_speed_m_s = 0.7F;  // ... growing with time
   float height_weight = 0.3F;     // of the vertical offset: occlusion changes the centroid's height

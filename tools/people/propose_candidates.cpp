@@ -22,6 +22,23 @@ struct CellMasks {
   std::vector<uint8_t> ignored;     // floor, furniture, walls, unchanged background
 };
 
+// Somebody beside a cupboard may get into the plane of its front. They do not become a part of it.
+void KeepTracksInPlane(const Scene& scene, size_t tracks, const PredictionOptions& options,
+                       CellMasks& masks) {
+  const std::vector<uint8_t>& in_plane = scene.surfaces.in_plane;
+  std::vector<double> cells(tracks, 0.0), of_plane(tracks, 0.0);
+  for (size_t i = 0; i < in_plane.size(); ++i) {
+    if (masks.owner[i] < 0) continue;
+    cells[static_cast<size_t>(masks.owner[i])] += 1.0;
+    of_plane[static_cast<size_t>(masks.owner[i])] += in_plane[i] ? 1.0 : 0.0;
+  }
+  for (size_t i = 0; i < in_plane.size(); ++i) {
+    if (!in_plane[i] || masks.owner[i] < 0) continue;
+    const auto track = static_cast<size_t>(masks.owner[i]);
+    if (of_plane[track] > options.in_plane_share * cells[track]) masks.ignored[i] = 0;
+  }
+}
+
 CellMasks MakeCellMasks(const Scene& scene, const std::vector<Track>& tracks, double time_s,
                         const PredictionOptions& options) {
   CellMasks masks;
@@ -29,6 +46,7 @@ CellMasks MakeCellMasks(const Scene& scene, const std::vector<Track>& tracks, do
   masks.ignored = scene.surfaces.room;
   for (size_t i = 0; i < masks.ignored.size(); ++i)
     masks.ignored[i] |= scene.background.steady[i] && masks.owner[i] < 0;
+  KeepTracksInPlane(scene, tracks.size(), options, masks);
   return masks;
 }
 

@@ -40,6 +40,22 @@ TEST(ProposeCandidates, TwoTouchingPeopleAreSplitAtTheirHeads) {
   }
 }
 
+// A flat coat that moves into the plane of a cupboard's front, half a metre beside it.
+TEST(ProposeCandidates, TrackedPersonStaysWholeInThePlaneOfACupboard) {
+  constexpr double kFront_m = 3.0;
+  const tests::Box cupboard{{0.5, -1.0, kFront_m}, {1.7, 0.8, 3.4}};
+  PeopleState state;
+  for (int f = 0; f < 6; ++f) {
+    const double z_m = std::min(kFront_m, 2.9 + 0.03 * f);
+    const tests::Box coat{{-0.35, -0.8, z_m}, {0.0, 0.6, z_m + 0.2}};
+    const CapsuleRender render = Shot({}, f, {cupboard, coat});
+    const Proposed proposed = Propose(render, state);
+    ASSERT_EQ(proposed.candidates.size(), 1U) << f;
+    EXPECT_GT(proposed.candidates[0].region.area_m2, 0.9F * 0.35F * 1.4F) << f;
+    Confirm(proposed, proposed.candidates, render.frame.time_s, state);
+  }
+}
+
 // Seen from 3 m above the floor: head, trunk and an arm down to the left, with the hand at the
 // middle of a roll on the floor, 4 m long.
 CapsuleRender AtARollFromAbove() {
