@@ -32,10 +32,10 @@ Camera CameraByImageSize(const std::string& name, int width, int height,
   const CameraGuess guess = GuessCamera(width, height);
   if (options.note) {
     std::ostringstream text;
-    text << name << ": no camera is stated; images of " << width << "x" << height
-         << (guess.sizes_match ? " are taken for a " : " are of no camera known, and taken for a ")
-         << guess.preset << "'s (f " << std::lround(guess.camera.fx)
-         << " px): --camera says otherwise (-color: depth aligned to colour images)";
+    text << name << ": no camera is stated; " << guess.preset << " (f "
+         << std::lround(guess.camera.fx) << " px) is assumed for images of " << width << "x"
+         << height << (guess.sizes_match ? "" : ", the size of no known camera")
+         << ": --camera sets another (-color: depth aligned to colour images)";
     const bool may_be_right = guess.sizes_match || HasKinectShape(width, height);
     options.note(may_be_right ? NoteKind::kInfo : NoteKind::kWarning, text.str());
   }

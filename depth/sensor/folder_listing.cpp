@@ -94,13 +94,13 @@ Sorted SortOut(const fs::path& folder) {
   return sorted;
 }
 
-void NotePassedOver(const fs::path& folder, const std::vector<fs::path>& others,
-                    const SourceOptions& options) {
+void NoteIgnored(const fs::path& folder, const std::vector<fs::path>& others,
+                 const SourceOptions& options) {
   constexpr size_t kNamed = 3;  // by hand: fits a line
   if (others.empty() || !options.note) return;
-  std::string text = folder.string() + ": passed over " + std::to_string(others.size()) +
-                     (others.size() == 1 ? " file that is" : " files that are") +
-                     " no depth image: ";
+  std::string text = folder.string() + ": " + std::to_string(others.size()) +
+                     (others.size() == 1 ? " file is not a depth image and is ignored: "
+                                         : " files are not depth images and are ignored: ");
   for (size_t i = 0; i < std::min(others.size(), kNamed); ++i) {
     text += (i > 0 ? ", " : "") + others[i].filename().string();
   }
@@ -150,8 +150,9 @@ void NoteUnit(const std::string& what, double unit_s, const SourceOptions& optio
   const char* unit = unit_s == 1e-3   ? "milliseconds"
                      : unit_s == 1e-6 ? "microseconds"
                                       : "nanoseconds";
-  options.note(NoteKind::kInfo, what + ", in steps that no camera's seconds have, are taken for " +
-                                    unit + ": --fps says otherwise");
+  options.note(NoteKind::kInfo, what + " are read as " + unit +
+                                    ", because their steps are too long for seconds: --fps sets "
+                                    "the rate");
 }
 
 void PutInOrderOfTime(std::vector<ListedFrame>& frames) {
@@ -223,7 +224,7 @@ void NoteBadLines(const FrameList& list, const SourceOptions& options) {
   if (list.bad_lines.empty() || !options.note) return;
   options.note(NoteKind::kWarning, list.file.string() + ": line " +
                                        std::to_string(list.bad_lines.front()) +
-                                       ": expected seconds and a file's name; lines passed over: " +
+                                       ": expected seconds and a file's name; lines ignored: " +
                                        std::to_string(list.bad_lines.size()));
 }
 
@@ -249,7 +250,7 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
     const bool has_times = IsPngName(list.frames.front().path);
     if (options.note) {
       options.note(has_times ? NoteKind::kWarning : NoteKind::kInfo,
-                   what + " and the like: passed over");
+                   what + " and the like: ignored");
     }
   }
   return {};
@@ -325,7 +326,7 @@ FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& optio
     NoteKinds(folder, sorted.depth, options);
     listing.frames = FramesByName(folder, sorted.depth, options);
   }
-  NotePassedOver(folder, sorted.other, options);
+  NoteIgnored(folder, sorted.other, options);
   listing.size = CommonSize(listing.frames);
   return listing;
 }

@@ -157,14 +157,14 @@ std::optional<Camera> CameraOfOthers(const fs::path& folder, ImageSize size,
                                      const SourceOptions& options) {
   for (const fs::path& file : CameraFilesOfOthers(folder)) {
     if (!fs::exists(file)) continue;
-    std::string note = "the camera is as it says";
+    std::string note = "its camera is used";
     std::optional<Camera> camera;
     try {
       const Camera stated = ReadStatedCamera(file, size, options);
       CheckCentre(stated, file);
       camera = stated;
     } catch (const InputError& error) {
-      note = std::string("passed over: ") + error.what();
+      note = std::string("ignored: ") + error.what();
     }
     if (options.note) options.note(NoteKind::kInfo, file.string() + ": " + note);
     if (camera) return camera;

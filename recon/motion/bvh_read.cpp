@@ -322,7 +322,7 @@ void ForEachPerson(BvhFile bvh, const std::string& source, std::vector<std::stri
       if (!nobody) nobody = error;
       std::string reason = error.what();
       if (reason.starts_with(source + ": ")) reason.erase(0, source.size() + 2);
-      warnings.push_back(source + ": the root '" + name + "' is passed over: " + reason);
+      warnings.push_back(source + ": the root '" + name + "' is ignored: " + reason);
     }
   }
   if (!anybody && nobody) throw *nobody;

@@ -139,7 +139,8 @@ class Loader {
     if (options_.amc_hz > 0.0 || is_rate_told_) return clip;
     is_rate_told_ = true;
     clip.warnings.push_back(
-        file + ": AMC files state no rate: read at 120 frames a second (--amc-fps says otherwise)");
+        file +
+        ": AMC files state no rate: read at 120 frames a second (--amc-fps sets another rate)");
     return clip;
   }
 

@@ -150,5 +150,5 @@ def test_camera_search_identifies_the_camera_by_the_people(shared, models):
     source = ossa.open(images)
     frames = list(ossa.Tracker(models=models).run(source))
     assert source.camera.fx == pytest.approx(119.05, rel=0.02)  # as its README says
-    assert "taken for that" in source.notes[-1]
+    assert "that camera is used" in source.notes[-1]
     assert sum(len(frame.bodies) == 1 for frame in frames) > 0.9 * len(frames)

@@ -235,7 +235,7 @@ void ShowUpright(const SourceArguments& arguments) {
   tracker::Tracker tracker;
   FindUpright(tracker, *OpenSource(arguments, true), arguments, true);
   if (Interrupted()) throw InputError(arguments.name + ": interrupted");
-  fmt::print("people stand in its images once these are turned by {} degrees clockwise\n",
+  fmt::print("people stand upright if its images are rotated by {} degrees clockwise\n",
              90 * tracker.quarter_turns());
 }
 

@@ -129,8 +129,8 @@ void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,
   }
   if (tracker.quarter_turns() == 0 || quiet) return;
   PrintError(
-      fmt::format("{}: people stand in its images once these are turned by {} degrees clockwise: "
-                  "--rotate says otherwise\n",
+      fmt::format("{}: its images are rotated by {} degrees clockwise, so that people stand "
+                  "upright: --rotate sets the rotation\n",
                   OnOneLine(arguments.name), 90 * tracker.quarter_turns()));
 }
 

@@ -111,8 +111,8 @@ std::string CameraText(const depth::CameraGuess& camera) {
 std::string Describe(const CameraFinding& finding) {
   const auto& [guess, found] = finding;
   return fmt::format(
-      "no camera is stated; people in its images of {}x{} are far surer as --camera {} (f {:.0f} "
-      "px) sees them than as a {} does (f {:.0f} px): taken for that",
+      "no camera is stated; people in its images of {}x{} have much higher scores with --camera {} "
+      "(f {:.0f} px) than with {} (f {:.0f} px): that camera is used",
       guess.camera.width, guess.camera.height, CameraText(found), found.camera.fx, guess.preset,
       guess.camera.fx);
 }

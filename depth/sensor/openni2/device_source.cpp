@@ -149,8 +149,8 @@ class Device {
 
   void BeginWith(const std::string& uri) {
     if (!first_.uri().empty() && options_.note) {
-      options_.note(NoteKind::kInfo, "openni:: goes on with " + uri +
-                                         ", taken for the camera that " + "was " + first_.uri());
+      options_.note(NoteKind::kInfo, "openni:: continues with " + uri +
+                                         ", assumed to be the camera that was " + first_.uri());
     }
     first_.Opened(uri);
   }

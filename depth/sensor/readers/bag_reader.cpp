@@ -110,7 +110,7 @@ DepthTopic MakeTopic(const rosbag::Bag& bag, const BagChoice& choice, const RosI
   } else if (info.k[0] != 0) {
     SendText(ReaderKind::kNote, choice.camera_info + " is of " + std::to_string(info.width) + "x" +
                                     std::to_string(info.height) + ", another shape than " +
-                                    choice.image + "'s, and is passed over");
+                                    choice.image + "'s: ignored");
   }
   return topic;
 }

@@ -84,14 +84,14 @@ BagChoice ChooseDepthTopic(const std::vector<std::string>& depth,
     });
     if (depth.size() > 1) {
       choice.notes.push_back("reads " + choice.image + " of its depth topics " + Listed(depth) +
-                             ": FILE.bag#TOPIC says otherwise");
+                             ": FILE.bag#TOPIC selects another");
     }
   }
   choice.camera_info = SiblingTopic(choice.image, topics, "sensor_msgs/CameraInfo", "camera_info");
   choice.is_info_own = !choice.camera_info.empty() && IsItsOwn(choice.camera_info, choice.image);
   if (!choice.camera_info.empty() && !choice.is_info_own) {
     choice.notes.push_back("has no camera_info of " + choice.image + "'s own and takes " +
-                           choice.camera_info + ": --camera says otherwise");
+                           choice.camera_info + ": --camera sets another");
   }
   for (const char* unit : {"Depth_Units/value", "Depth Units/value"}) {  // by librealsense version
     if (!choice.unit.empty()) break;

@@ -94,7 +94,7 @@ TEST(FolderSource, NotesACameraGuessedFromTheImageSize) {
   Notes notes;
   const auto source = OpenSource(folder.path().string(), notes.Options());
   EXPECT_EQ(source->camera().fx, 366.0);
-  EXPECT_TRUE(notes.Tell("512x424 are taken for a kinect-v2's (f 366 px)")) << notes.text;
+  EXPECT_TRUE(notes.Tell("kinect-v2 (f 366 px) is assumed for images of 512x424")) << notes.text;
 }
 
 // Folder layout of Open3D's recorders.
@@ -107,11 +107,11 @@ TEST(FolderSource, ReadsAnOpen3dCameraInTheParentFolder) {
   Notes notes;
   const auto source = OpenSource((folder / "depth/").string(), notes.Options());
   EXPECT_EQ(source->camera(), (Camera{640, 480, 612.5, 611.0, 322.0, 237.0}));
-  EXPECT_TRUE(notes.Tell("camera_intrinsic.json: the camera is as it says")) << notes.text;
+  EXPECT_TRUE(notes.Tell("camera_intrinsic.json: its camera is used")) << notes.text;
   std::ofstream(folder / "camera_intrinsic.json") << R"({"focal": 612.5})";
   Notes others;
   EXPECT_EQ(OpenSource((folder / "depth").string(), others.Options())->camera().fx, 575.0);
-  EXPECT_TRUE(others.Tell("camera_intrinsic.json: passed over: ")) << others.text;
+  EXPECT_TRUE(others.Tell("camera_intrinsic.json: ignored: ")) << others.text;
 }
 
 // Folder layout of scene data sets.
@@ -140,7 +140,7 @@ TEST(FolderSource, ReadsARosCalibrationAndNotesItsDistortion) {
   Notes notes;
   const auto source = OpenSource(folder.path().string(), notes.Options());
   EXPECT_EQ(source->camera(), (Camera{640, 480, 600, 601, 320, 240}));
-  EXPECT_TRUE(notes.Tell("ost.yaml: the camera is as it says")) << notes.text;
+  EXPECT_TRUE(notes.Tell("ost.yaml: its camera is used")) << notes.text;
   EXPECT_TRUE(notes.Tell("ost.yaml: the lens moves the image's corners by ")) << notes.text;
 }
 

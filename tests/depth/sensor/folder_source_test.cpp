@@ -120,7 +120,7 @@ TEST(FolderSource, SkipsOtherFilesWithANote) {
   Notes notes;
   const auto source = OpenSource(folder.path().string(), notes.Options());
   EXPECT_EQ(source->frame_count(), 2);
-  EXPECT_TRUE(notes.Tell("passed over 4 files")) << notes.text;
+  EXPECT_TRUE(notes.Tell("4 files are not depth images")) << notes.text;
 }
 
 TEST(FolderSource, WarnsOfTwoSequencesInOneFolder) {

@@ -45,7 +45,7 @@ TEST(FolderSource, NotesNumbersThatAreReadAsTimes) {
   Notes notes;
   EXPECT_NEAR(TimesOf(*OpenSource(folder.path().string(), notes.Options()))[2], 0.06, 1e-9);
   EXPECT_TRUE(notes.Tell("numbers in its names")) << notes.text;
-  EXPECT_TRUE(notes.Tell("taken for milliseconds: --fps says otherwise")) << notes.text;
+  EXPECT_TRUE(notes.Tell("are read as milliseconds")) << notes.text;
 }
 
 // As printed by many programs.
@@ -101,7 +101,7 @@ TEST(FolderSource, IgnoresAForeignDepthTxtWithANote) {
   for (const char* name : {"0.png", "1.png"}) WriteFrame(folder / name, 7);
   Notes notes;
   EXPECT_EQ(ValuesOf(*OpenSource(folder.path().string(), notes.Options())).size(), 2u);
-  EXPECT_TRUE(notes.Tell("found line 2: '1204' and the like: passed over")) << notes.text;
+  EXPECT_TRUE(notes.Tell("found line 2: '1204' and the like: ignored")) << notes.text;
 }
 
 TEST(FolderSource, FindsListedFramesForAnySpellingOfTheFolder) {
@@ -111,7 +111,7 @@ TEST(FolderSource, FindsListedFramesForAnySpellingOfTheFolder) {
   std::ofstream(folder / "depth.txt") << "5.0 depth/a.png\n";
   Notes notes;
   OpenSource((folder / "depth/../depth").string(), notes.Options());
-  EXPECT_FALSE(notes.Tell("passed over")) << notes.text;
+  EXPECT_FALSE(notes.Tell("ignored")) << notes.text;
 }
 
 TEST(FolderSource, FpsOptionOverridesTimesInNames) {

@@ -266,7 +266,7 @@ TEST(ForeignBvh, PropsAreIgnoredWithAWarning) {
   ASSERT_EQ(read.frames[0].bodies.size(), 1u);
   ExpectFigure(read);
   ASSERT_EQ(read.warnings.size(), 1u);
-  EXPECT_NE(read.warnings[0].find("'sword' is passed over"), std::string::npos);
+  EXPECT_NE(read.warnings[0].find("'sword' is ignored"), std::string::npos);
 }
 
 TEST(ForeignBvh, UnknownNamesAreListed) {

@@ -108,7 +108,7 @@ TEST(ForeignMocap, PropsAreIgnoredWithAWarning) {
   EXPECT_EQ(clips[0].name, "x");
   EXPECT_LT(FarthestApart_m(clips[0], Load({.frames = 1})[0]), 1e-9);
   ASSERT_EQ(clips[0].warnings.size(), 1u);
-  EXPECT_NE(clips[0].warnings[0].find("x.bvh: the root 'sword' is passed over: joint names of no"),
+  EXPECT_NE(clips[0].warnings[0].find("x.bvh: the root 'sword' is ignored: joint names of no"),
             std::string::npos)
       << clips[0].warnings[0];
 }

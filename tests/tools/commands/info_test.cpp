@@ -136,7 +136,7 @@ TEST(InfoCommand, AppliesSourceOptionsToDepthImages) {
   EXPECT_NE(show({"--fps", "10"}).find(", 0.20 s, "), std::string::npos);
   EXPECT_NE(show({"--camera", "100,101,80,60"}).find("fx 100.00 fy 101.00"), std::string::npos);
   EXPECT_NE(show({"--depth-scale", "2000"}).find("3 frames"), std::string::npos);
-  EXPECT_NE(show({"--rotate", "auto"}).find("turned by 0 degrees"), std::string::npos);
+  EXPECT_NE(show({"--rotate", "auto"}).find("rotated by 0 degrees"), std::string::npos);
   EXPECT_EQ(RunOssa({"info", folder.path().string(), "--depth-scale", "0"}).exit_status, 2);
 }
 

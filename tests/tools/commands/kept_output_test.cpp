@@ -244,7 +244,7 @@ TEST(KeptOutput, OfASourceThatFailsHasTheFramesBeforeTheFailure) {
   const auto out = folder / "x.jsonl";
   const CommandResult result =
       test::RunOssa({"track", folder.path().string(), "--out", out.string(), "--quiet"});
-  if (result.exit_status == 0) GTEST_SKIP() << "such a frame is passed over: " << result.err;
+  if (result.exit_status == 0) GTEST_SKIP() << "such a frame is ignored: " << result.err;
   EXPECT_NE(result.err.find("the 1 of 2 frames before it are in"), std::string::npos) << result.err;
   EXPECT_EQ(SkeletonsIn(out), 1);
 }

@@ -35,7 +35,7 @@ TEST(TrackCommand, RecognisesDepthAlignedToColourByThePeopleInIt) {
   const CommandResult result = TrackTo(folder / "still.png", folder / "x.jsonl");
   ASSERT_EQ(result.exit_status, 0) << result.err;
   EXPECT_NE(result.err.find("--camera d435-color (f 461 px)"), std::string::npos) << result.err;
-  EXPECT_EQ(result.err.find("are taken for"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("is assumed for images"), std::string::npos) << result.err;
   const auto back = recon::ReadSkeletons((folder / "x.jsonl").string());
   ASSERT_EQ(back.frames.at(0).bodies.size(), 1U);
   const auto& head = back.frames[0].bodies[0].joints[static_cast<size_t>(recon::Joint::kHead)];
