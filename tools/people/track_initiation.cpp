@@ -127,8 +127,9 @@ Requirement RequireInFirstFrame(const Detection& detection, bool fresh_scene,
   if (fresh_scene)
     return {Rule::kFreshScene,
             candidate.has_head ? options.new_person_score : options.confident_score};
-  return {Rule::kEntered,
-          IsForeground(candidate) ? options.foreground_first_score : kNeverInFirstFrame};
+  // Beside a tracked person it may be their hand or what it holds, for a moment.
+  const bool may_enter = IsForeground(candidate) && candidate.isolated;
+  return {Rule::kEntered, may_enter ? options.foreground_first_score : kNeverInFirstFrame};
 }
 
 // The threshold for a new person on the mean of several observations.

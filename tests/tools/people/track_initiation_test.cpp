@@ -65,6 +65,21 @@ TEST_F(NewPerson, IsAcceptedAtOnceInAFreshSceneAndElsewhereAfterThreeConfidentFr
   EXPECT_EQ(AcceptedIn(20, false, [](int f) { return Observation{f < 2 ? 0.98 : 0.7}; }), -1);
 }
 
+// A hand that the image or an object cuts off its arm looks like a person for a frame.
+TEST_F(NewPerson, BesideATrackedPersonIsNotAcceptedInOneFrame) {
+  const auto accepted_in = [&](bool isolated, int frames) {
+    return AcceptedIn(frames, false, [&](int f) {
+      return Observation{.score = 0.8,
+                         .x_m = 0.04F * static_cast<float>(f),
+                         .foreground_share = 1.0,
+                         .isolated = isolated};
+    });
+  };
+  EXPECT_EQ(accepted_in(true, 1), 0);
+  EXPECT_EQ(accepted_in(false, 1), -1);
+  EXPECT_EQ(accepted_in(false, 10), options_.tentative_observations - 1) << "it moves on";
+}
+
 // The head's shape is not used then.
 TEST_F(NewPerson, PoseNetworkDecidesIfItWasRun) {
   const auto by_pose = [](double score, bool has_head) {
