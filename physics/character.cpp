@@ -241,7 +241,7 @@ void Character::Drive(const ControlTarget& target, const ControlGains& gains,
 }
 
 /// Departure: the controller compensates the weight of a controlled joint; otherwise the character
-/// would hang g / w^2 (5 mm) below its target. A released joint falls.
+/// would hang g / w^2 (8 mm) below its target. A released joint falls.
 void Character::CarryWeight(const ControlTarget& target, const Vector3d& gravity_m_s2) {
   for (size_t joint = 0; joint < kJointCount; ++joint) {
     if (target.stiffness[joint] > 0.0) AddForceAtJoint(joint, -lumped_kg_[joint] * gravity_m_s2);
@@ -258,6 +258,8 @@ void Character::DrivePositions(const ControlTarget& target, const ControlGains& 
 }
 
 /// Eq. 2 / 17. Axial rotation of a bone moves no joint, so each bone is controlled independently.
+/// Departure: the target's axial velocity counts as 0. Joints hardly determine axial rotations, so
+/// that the difference of two frames would be noise.
 void Character::DriveAxes(const ControlTarget& target, const ControlGains& gains) {
   for (size_t bone = 1; bone < kJointCount; ++bone) {
     if (target.stiffness[bone] <= 0.0) continue;
@@ -293,9 +295,9 @@ void SetMotor(dJointID motor, bool linear, const Vector3d& speed, double bound) 
 
 /// The alternative control: an angular servo per ball joint that rotates each bone, relative to its
 /// parent, towards the target's orientation, and a linear servo for the trunk. The servo's speed is
-/// gain x error. gain h = 0.15 is far below the stability limit of 2 and gives the lag of
-/// positional control (2 / w). Servos are solved together with the joints, so they are
-/// unconditionally stable.
+/// gain x error. A gain of w / 2 gives the lag of positional control (2 / w); gain h is at most 1/8
+/// (LargestStableRate), far below the stability limit of 2. Servos are solved together with the
+/// joints, so they are unconditionally stable.
 void Character::DriveMotors(const ControlTarget& target, const ControlGains& gains, double h_s) {
   // Share of a bone's angular velocity that its servo gets as feed-forward. 1: 0.37 frames of lag
   // on UI-PRMD and 48 % less jitter than the sensor; 0.7: 0.50 frames and 53 %; 0.4: 0.66 frames

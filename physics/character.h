@@ -28,7 +28,7 @@ enum class Control {
 /// >= 1. Hence no mode of the character is underdamped, with one w for all joints.
 ///
 /// Explicit integration with step h is stable while (rho w^2) h^2 + 2 (2 rho w) h < 4; with the
-/// largest rho of the segment table, 3.65 (shank), while w h < 0.256; LargestStableRate keeps to
+/// largest rho of the segment table, 3.64 (shank), while w h < 0.257; LargestStableRate keeps to
 /// 0.25.
 struct ControlGains {
   double rate_rad_s = 35.0;              // w; chosen by a sweep on UI-PRMD and noisy mocap
@@ -86,7 +86,8 @@ struct DynamicsOptions {
   Eigen::Vector4d floor = {0.0, 1.0, 0.0, 0.0};  // a b c d, normal up
   /// Velocities and accelerations are those of the parabola fitted to all frames within this time,
   /// at least three. 0.1 s lowers the acceleration of a swing of 1 Hz by 3 %.
-  // By hand, [0, 1]; biomechanics' usual 6 Hz low-pass blunts as much
+  // By hand, [0, 1]; halves the acceleration of a swing of 4 Hz, biomechanics' usual low-pass
+  // filter that of one of 6 Hz
   double window_s = 0.1;
 };
 

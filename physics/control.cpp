@@ -5,7 +5,7 @@
 namespace ossa::physics {
 
 double LargestStableRate(double h_s) {
-  // No unit; half of the bound of the discrete system, see character.h
+  // No unit; below the bound of the discrete system, 0.257 (derived in character.h)
   constexpr double kLargestRateTimesStep = 0.25;
   return kLargestRateTimesStep / h_s;
 }

@@ -10,7 +10,7 @@ using recon::Joint;
 
 namespace {
 
-// Constants: by hand, on the scenes of Shum & Ho 2012 section 8.3.
+// Constants: by hand, on the scenes of Shum & Ho 2012 section 8.2.
 constexpr double kSlow_m_s = 1.5;   // slower objects are carried or rolling
 constexpr double kHorizon_s = 0.6;  // a person's warning time
 

@@ -20,7 +20,8 @@ constexpr double kPinnedMass_kg = 8.0;
 
 // When a foot stands: near the floor and slower than a swinging foot (2-4 m/s, at least 0.3 m/s
 // just before landing), for long enough to be robust to noise. Kinect foot joints are up to 5 cm
-// above the sole.
+// above the sole. Departure: the paper fixes a foot while its target touches the floor, which a
+// sensor's jittering foot does in single frames, or never.
 constexpr double kStandHeight_m = 0.05, kLiftHeight_m = 0.08;
 constexpr double kStillSpeed_m_s = 0.15, kStillTime_s = 0.12;
 constexpr double kSmoothing_s = 0.08;

@@ -46,7 +46,7 @@ std::vector<Neighbour> NearestPostures(const PostureDatabase& database, const Po
   const int n = database.size();
   const auto wanted = static_cast<size_t>(std::clamp(k, 1, n));
   const float* data = database.postures().data();
-  constexpr float kFar = 1e30F;  // metres, a bound: farther than anything
+  constexpr float kFar = 1e30F;  // square metres, a bound: farther than anything
   float limit = kFar;
   if (hints.size() >= wanted) {
     std::vector<float> d;

@@ -210,8 +210,8 @@ PoseCorrection::Samples PoseCorrection::MakeSamples(std::vector<PosturePair> pai
   return s;
 }
 
-// Subset of regressors (Rasmussen & Williams 2006, eq. 8.13) plus a linear model: the prior of the
-// kernel weights is the centres' own kernel matrix, that of the linear ones is the identity.
+// Subset of regressors (Rasmussen & Williams 2006, sec. 8.3.1) plus a linear model: the prior of
+// the kernel weights is the centres' own kernel matrix, that of the linear ones is the identity.
 PoseCorrection PoseCorrection::Fit(const Samples& samples, double width, double noise_ratio,
                                    const PoseCorrectionOptions& options) {
   PoseCorrection out;

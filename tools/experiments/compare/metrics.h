@@ -18,8 +18,10 @@ struct ClipMetrics {
   bool same_clock = true;
 
   std::optional<double> mean_joint_error_cm;
-  /// Shum 2013 eq. 18 (Plantard 2016 eq. 13): each joint relative to its parent. If a parent is
-  /// missing, the nearest ancestor that both have is used; joints without one are left out.
+  /// Shum 2013 eq. 18 (Plantard 2016 eq. 13): each joint relative to its parent. Departure: the
+  /// root, which has none, is not counted (it would count as 0 and lower the mean by 5 %). If a
+  /// parent is missing, the nearest ancestor that both have is used; joints without one are left
+  /// out.
   std::optional<double> parent_relative_error_cm;
   /// Share of frames whose eq. 13 is 20 cm or more (Plantard 2016, section 8.2).
   std::optional<double> fraction_frames_over_20cm;

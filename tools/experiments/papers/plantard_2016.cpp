@@ -1,4 +1,4 @@
-// Plantard, Shum, Le Pierres, Multon: Filtered pose graph for efficient Kinect pose reconstruction
+// Plantard, Shum, Multon: Filtered pose graph for efficient Kinect pose reconstruction
 // (2016): the ten scenarios of table 1, figures 5 to 8 and the tests of section 8.2; figures 5, 8
 // and the tests are in plantard_2016_methods.cpp, figure 9 in plantard_2016_sweeps.cpp.
 #include "tools/experiments/papers/plantard_2016_internal.h"
