@@ -81,10 +81,13 @@ FilterSettings ReadFilterSettings(PayloadReader& in) {
   settings.options.most_edges = in.Get<int32_t>("most edges");
   settings.edge_threshold_m = in.Get<double>("edge threshold");
   const double threshold_m = settings.options.threshold_m;
-  if (!(threshold_m > 0.0 && threshold_m < 1e3) ||
-      !(settings.edge_threshold_m >= 0.0 && settings.edge_threshold_m < 1e3) ||
+  // Bounds, by hand: an edge is shorter than the filter's distance if that sums over the joints.
+  constexpr double kShortestEdge_m = 1e-5, kLongestEdge_m = 1e3;
+  if (!(threshold_m >= kSmallestThreshold_m && threshold_m <= kLargestThreshold_m) ||
+      !(settings.edge_threshold_m >= kShortestEdge_m &&
+        settings.edge_threshold_m < kLongestEdge_m) ||
       settings.options.most_edges < 0) {
-    in.Fail("settings", "expected positive thresholds in metres");
+    in.Fail("settings", "expected thresholds of 0.0001 to 100 m");
   }
   return settings;
 }

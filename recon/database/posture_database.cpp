@@ -2,6 +2,8 @@
 // reconstruction, 2016, section 4; Shum et al. 2013 section V-A.
 #include "recon/database/posture_database.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,12 @@ namespace {
 bool IsFinite(const Posture& posture) {
   return std::all_of(posture.position_m.begin(), posture.position_m.end(),
                      [](const Eigen::Vector3d& p) { return p.allFinite() && p.norm() < 1e4; });
+}
+
+void CheckThreshold(double threshold_m) {
+  if (threshold_m >= kSmallestThreshold_m && threshold_m <= kLargestThreshold_m) return;
+  throw InputError(fmt::format("posture database: threshold is {} m, must be in [{}, {}] m",
+                               threshold_m, kSmallestThreshold_m, kLargestThreshold_m));
 }
 
 using Quaternions = std::array<float, 4 * kJointCount>;  // w x y z of each joint
@@ -92,9 +100,7 @@ Posture ToPosture(const PostureVector& vector) {
 PostureDatabase PostureDatabase::Build(const std::vector<PostureClip>& clips,
                                        const DatabaseOptions& options,
                                        const std::function<bool()>& stop) {
-  if (!(options.threshold_m > 0.0) || !std::isfinite(options.threshold_m)) {
-    throw InputError("posture database: threshold must be a positive number of metres");
-  }
+  CheckThreshold(options.threshold_m);
   PostureDatabase db;
   db.options_ = options;
   db.bone_lengths_m_ = StandardBoneLengths();

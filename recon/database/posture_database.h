@@ -39,11 +39,15 @@ enum class DatabaseFilter : uint32_t {
   kMaxJoint = 1,    // largest joint distance (Plantard 2016 eq. 1)
 };
 
+/// Range of the filters' threshold, metres. By hand: single precision still tells postures 0.1 mm
+/// apart, and nobody is 100 m tall.
+inline constexpr double kSmallestThreshold_m = 1e-4, kLargestThreshold_m = 100.0;
+
 /// How postures are filtered and connected.
 struct DatabaseOptions {
   DatabaseFilter filter = DatabaseFilter::kMaxJoint;
-  double threshold_m = 0.2;  // thres_1: postures nearer than this to a kept one are dropped, > 0;
-                             // Plantard 2016, section 8.3: some 2000 postures and more are enough
+  double threshold_m = 0.2;  // thres_1, in the range above: postures nearer than this to a kept one
+                             // are dropped; Plantard 2016, section 8.3: some 2000 are enough
   int most_edges = 64;  // per node, nearest first. Departure: the paper's are unbounded (7.8 on
                         // average); a bound keeps the query's cost independent of the density
 };
@@ -60,8 +64,9 @@ class PostureDatabase {
   /// Normalises, retargets, filters within clips then between clips (Plantard 2016 algs. 1-4; with
   /// kSumSquared the same screening under Shum's distance) and connects. Departure: algorithm 2 as
   /// printed keeps a posture that is far from any other one; the text's "same process" means far
-  /// from all kept ones. Throws InputError if there is no finite posture. `stop` is called
-  /// regularly; once it returns true, the result is incomplete and must not be used.
+  /// from all kept ones. Throws InputError if there is no finite posture, and for a threshold out
+  /// of range. `stop` is called regularly; once it returns true, the result is incomplete and must
+  /// not be used.
   static PostureDatabase Build(const std::vector<PostureClip>& clips,
                                const DatabaseOptions& options,
                                const std::function<bool()>& stop = {});

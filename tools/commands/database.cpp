@@ -52,7 +52,7 @@ DatabaseArguments ParseArguments(int argc, char** argv) {
   app.add_option("--threshold", a.options.threshold_m,
                  "postures nearer than this to a kept one are dropped, metres")
       ->capture_default_str()
-      ->check(Positive());
+      ->check(CLI::Range(recon::kSmallestThreshold_m, recon::kLargestThreshold_m));
   app.add_option("--filter", a.filter, "distance of the filter")
       ->capture_default_str()
       ->check(CLI::IsMember({"sum-squared", "max-joint"}));

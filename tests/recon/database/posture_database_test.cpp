@@ -35,6 +35,29 @@ TEST(PostureDatabase, KeepsNoTwoPosturesNearerThanTheThreshold) {
   }
 }
 
+// Sec. 5.1 of Shum & Ho 2012: place, heading and size of whoever was recorded are removed.
+TEST(PostureDatabase, NormalisesPlaceHeadingAndSize) {
+  const Posture posture = test::Gesture(0.4, 1.2, 0.5);
+  PostureClip clip{"turned", {}, {}};
+  clip.postures = {Placed(Retargeted(posture, ScaledBoneLengths(1.3)), {{0.5, 0.1, 3.0}, 1.1})};
+  const auto db = PostureDatabase::Build({clip}, {});
+  EXPECT_LT(test::MeanDistance_m(db.posture(0), posture), 1e-6);  // single precision
+  const JointOrientations expected = ComputeOrientations(posture);
+  for (size_t i = 1; i < kJointCount; ++i) {
+    EXPECT_LT(db.orientations(0)[i].angularDistance(expected[i]), 1e-3) << i;
+  }
+}
+
+// Below single precision all distances are 0, and one posture would be left; a file with a
+// threshold of kilometres could not be read again.
+TEST(PostureDatabase, RefusesThresholdsThatCannotFilter) {
+  for (const double threshold_m : {0.0, -0.2, 1e-50, 2000.0, std::nan("")}) {
+    EXPECT_THROW(PostureDatabase::Build(test::GestureClips(), {.threshold_m = threshold_m}),
+                 InputError)
+        << threshold_m;
+  }
+}
+
 TEST(PostureDatabase, KeepsAPostureWithinTheThresholdOfEveryGivenOne) {
   const auto clips = test::GestureClips();
   const auto db = PostureDatabase::Build(clips, {});
@@ -114,6 +137,9 @@ TEST(PostureDatabase, CanBeFilteredAgainAndKeepsItsNearestEdges) {
     const auto all = db.neighbours(i), two = few.neighbours(i);
     ASSERT_EQ(two.size(), std::min<size_t>(2, all.size()));
     for (size_t k = 0; k < two.size(); ++k) EXPECT_EQ(two[k], all[k]);
+    for (size_t k = 1; k < all.size(); ++k) {
+      EXPECT_LE(Distance(db, i, all[k - 1]), Distance(db, i, all[k]) + 1e-6);
+    }
   }
 }
 

@@ -28,6 +28,10 @@ TEST(DatabaseCommand, ReportsErrorsInOneLine) {
   const test::TemporaryFolder folder;
   const std::string out = folder / "x.ossadb";
   EXPECT_EQ(RunOssa({"database", "--out", out}).exit_status, 2);
+  const auto fine =
+      RunOssa({"database", "--mocap", "authored", "--out", out, "--threshold", "1e-50"});
+  EXPECT_EQ(fine.exit_status, 2);
+  EXPECT_NE(fine.err.find("--threshold"), std::string::npos) << fine.err;
   const auto run = RunOssa({"database", "--mocap", "/nonexistent", "--out", out, "--quiet"});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find("/nonexistent"), std::string::npos) << run.err;
