@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "depth/image/camera.h"
+#include "recon/placed_joint.h"
 #include "recon/smallest_turn.h"
 
 namespace ossa::recon {
@@ -106,11 +107,11 @@ Reliability ReliabilityEstimator::Step(
   Reliability r;
   JointWeights seen{};
   for (size_t i = 0; i < kJointCount; ++i) {
-    const bool finite = observed.posture.position_m[i].allFinite();
+    const bool possible = IsPossiblePlace(observed.posture.position_m[i]);
     const bool tracked = observed.state[i] == TrackingState::kTracked;
     const bool present = observed.state[i] != TrackingState::kNotTracked;
-    seen[i] = finite && present ? 1.0 : 0.0;
-    r.state[i] = finite && (tracked || (!options_.use_state && present)) ? 1.0 : 0.0;  // eq. 7
+    seen[i] = possible && present ? 1.0 : 0.0;
+    r.state[i] = possible && (tracked || (!options_.use_state && present)) ? 1.0 : 0.0;  // eq. 7
   }
   postures_.push_back(observed.posture);
   seen_.push_back(seen);

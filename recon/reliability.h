@@ -107,7 +107,8 @@ class SpeedTerm {
   JointArray<double> unbelieved_s_{};  // for how long; < 0: it was never believed
 };
 
-/// Reliability of one person's joints, frame by frame. Non-finite joints count as not tracked.
+/// Reliability of one person's joints, frame by frame. Joints at impossible places
+/// (IsPossiblePlace) count as not tracked.
 class ReliabilityEstimator {
  public:
   explicit ReliabilityEstimator(const ReliabilityOptions& options = {}) : options_(options) {}

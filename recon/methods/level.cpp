@@ -4,6 +4,7 @@
 
 #include "depth/base/angles.h"
 #include "recon/methods/level_internal.h"
+#include "recon/placed_joint.h"
 #include "recon/smallest_turn.h"
 
 namespace ossa::recon {
@@ -14,7 +15,7 @@ using Eigen::Vector3d;
 
 bool IsSeen(const TrackedPosture& observed, Joint joint) {
   return observed.state[Index(joint)] == TrackingState::kTracked &&
-         observed.posture[joint].allFinite();
+         IsPossiblePlace(observed.posture[joint]);
 }
 
 Vector3d MiddleOf(const Posture& posture, Joint left, Joint right) {
@@ -62,18 +63,27 @@ std::optional<Stance> FindStance(const TrackedPosture& observed, const LevelOpti
   return Stance{balance, p[Joint::kShoulderCenter] - hips, hips - knees, knees - ankles};
 }
 
+void DropImpossibleJoints(TrackedPosture& observed) {
+  for (size_t i = 0; i < kJointCount; ++i) {
+    if (!IsPossiblePlace(observed.posture.position_m[i])) {
+      observed.state[i] = TrackingState::kNotTracked;
+    }
+  }
+}
+
 class Levelled : public Reconstructor {
  public:
   explicit Levelled(std::unique_ptr<Reconstructor> method) : method_(std::move(method)) {}
 
   ReconstructedPosture Step(const ReconstructionInput& input) override {
     const std::optional<Isometry3d> before = level_from_camera_;
-    level_from_camera_ = level_.Update(input.observed, input.floor);
+    ReconstructionInput levelled = input;
+    DropImpossibleJoints(levelled.observed);
+    level_from_camera_ = level_.Update(levelled.observed, input.floor);
     const bool is_new = level_from_camera_.has_value() != before.has_value() ||
                         (before && !before->isApprox(*level_from_camera_));
     if (is_new && started_) cut_s_ += kCut_s;
     started_ = true;
-    ReconstructionInput levelled = input;
     levelled.time_s += cut_s_;
     if (level_from_camera_) {
       levelled.observed.posture = Moved(input.observed.posture, *level_from_camera_);
@@ -192,7 +202,7 @@ void LevelEstimator::Level(const Vector3d& up, double least_deg, const Posture& 
   }
   // Rotate about the person, who then stays at a distance that the methods expect.
   const Vector3d& root = observed.position_m[0];
-  const Vector3d pivot = root.allFinite() ? root : Vector3d::Zero();
+  const Vector3d pivot = IsPossiblePlace(root) ? root : Vector3d::Zero();
   level_from_camera_ = Eigen::Translation3d(pivot) *
                        Isometry3d(SmallestTurn(up, Vector3d(Vector3d::UnitY()))) *
                        Eigen::Translation3d(-pivot);

@@ -4,6 +4,7 @@
 #include "depth/base/statistics.h"
 #include "recon/methods/prepared_posture_internal.h"
 #include "recon/methods/reach_internal.h"
+#include "recon/placed_joint.h"
 
 namespace ossa::recon {
 namespace {
@@ -125,8 +126,7 @@ PreparedPosture Person::Prepare(const ReconstructionInput& input) {
   out.terms = r;
   for (size_t i = 0; i < kJointCount; ++i) {
     const Eigen::Vector3d& p = input.observed.posture.position_m[i];
-    const bool there = input.observed.state[i] != TrackingState::kNotTracked && p.allFinite() &&
-                       p.cwiseAbs().maxCoeff() < 100.0;  // plausible distances only
+    const bool there = input.observed.state[i] != TrackingState::kNotTracked && IsPossiblePlace(p);
     out.present[i] = there ? 1.0 : 0.0;
     if (!there) out.reliability[i] = 0.0;
   }

@@ -115,6 +115,26 @@ TEST_P(EveryMethod, StaysFiniteForInvalidInput) {
   }
 }
 
+// 1e200 m: a finite number whose square is none. Farther than anything is seen: as if absent.
+TEST_P(EveryMethod, TreatsAnImpossiblyFarJointAsAbsent) {
+  const auto far = Make(), absent = Make();
+  for (int f = 0; f < 12; ++f) {
+    TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Motion(f / 30.0)));
+    TrackedPosture without = seen;
+    if (f == 4) {
+      seen.posture.position_m[7].setConstant(1e200);
+      without.state[7] = TrackingState::kNotTracked;
+    }
+    const auto made = far->Step({seen, f / 30.0, nullptr});
+    const auto expected = absent->Step({without, f / 30.0, nullptr});
+    ExpectFinite(made);
+    for (size_t i = 0; i < kJointCount; ++i) {
+      EXPECT_EQ(made.reliability[i], expected.reliability[i]) << f << " " << i;
+      EXPECT_EQ(made.posture.position_m[i], expected.posture.position_m[i]) << f << " " << i;
+    }
+  }
+}
+
 // A logger gives two consecutive frames the same time stamp: the result must be as without the
 // repetition. Steps of 1/32 s have no rounding.
 TEST_P(EveryMethod, KeepsThePersonWhenATimeRepeats) {
