@@ -31,6 +31,21 @@ TEST(Normalise, APersonFacingTheCameraHasTheLeftHandAtNegativeX) {
   EXPECT_NEAR(std::abs(EstimatePlacement(seen, Ones(), 0.0).yaw_rad), 3.1, 1e-9);
 }
 
+// A hip seen half a metre behind: unreliable, it does not count.
+TEST(Normalise, TakesTheHeadingFromReliableJoints) {
+  Posture seen = Placed(test::Gesture(0.4, 1.2, 0.5), {{0.3, -0.2, 2.2}, 0.7});
+  seen[Joint::kHipRight] += Eigen::Vector3d(0.2, 0.0, 0.5);
+  JointWeights weights = Ones();
+  weights[Joint::kHipRight] = 0.0;
+  EXPECT_NEAR(EstimatePlacement(seen, weights, 0.0).yaw_rad, 0.7, 1e-9);
+}
+
+TEST(Mirrored, ExchangesTheArms) {
+  const Posture person = test::Gesture(0.4, 1.2, 0.5);
+  EXPECT_LT(test::MeanDistance_m(Mirrored(person), test::Gesture(1.2, 0.4, 0.5)), 1e-12);
+  EXPECT_GT(test::MeanDistance_m(Mirrored(person), person), 0.05);
+}
+
 TEST(Normalise, KeepsTheLastHeadingWithoutEvidence) {
   Posture seen;  // all joints at one point
   EXPECT_DOUBLE_EQ(EstimatePlacement(seen, Ones(), 1.25).yaw_rad, 1.25);
@@ -54,6 +69,27 @@ TEST(Retarget, UndefinedBonesGetTheRestDirection) {
   const Posture made = Retargeted(collapsed, StandardBoneLengths());
   for (const auto& p : made.position_m) EXPECT_TRUE(p.allFinite());
   EXPECT_GT(made[Joint::kHead].y(), made[Joint::kShoulderCenter].y());
+}
+
+// The trunk is of a child, the limbs of an adult: the joints that are not believed decide nothing.
+TEST(BodyScale, IgnoresJointsWithoutWeight) {
+  BoneLengths lengths = ScaledBoneLengths(1.2);
+  JointWeights weights = Ones();
+  for (size_t i = 4; i < kJointCount; ++i) {
+    lengths[i] = 0.7 * StandardBoneLengths()[i];
+    weights[i] = 0.01;
+  }
+  EXPECT_NEAR(EstimateBodyScale(lengths, weights), 1.2, 1e-9);
+}
+
+// Nine long bones of an adult, ten short ones of a child: half the length decides, not half the
+// bones.
+TEST(BodyScale, WeighsLongBonesMore) {
+  BoneLengths lengths = ScaledBoneLengths(0.7);
+  for (const size_t i : {2U, 5U, 6U, 9U, 10U, 13U, 14U, 17U, 18U}) {
+    lengths[i] = 1.2 * StandardBoneLengths()[i];
+  }
+  EXPECT_NEAR(EstimateBodyScale(lengths, Ones()), 1.2, 1e-9);
 }
 
 TEST(BodyScale, IsRobustAgainstAWrongBone) {

@@ -59,6 +59,83 @@ TEST(Reliability, IgnoresVibrationBelowThreeCentimetres) {
   EXPECT_EQ(r.behaviour[kHandLeft], 1.0);
 }
 
+// Eq. 3: both displacements must exceed d_min. Five centimetres out and two back, every second
+// frame.
+TEST(Reliability, IgnoresTurnsOfWhichOneStepIsBelowThreeCentimetres) {
+  ReliabilityEstimator estimator;
+  Posture seen = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  Reliability r;
+  for (int f = 0; f < 10; ++f) {
+    seen.position_m[kHandLeft].z() += f % 2 == 0 ? 0.05 : -0.02;
+    r = estimator.Step(test::AllTracked(seen), nullptr);
+    EXPECT_EQ(r.behaviour[kHandLeft], 1.0) << f;
+  }
+}
+
+// Eq. 5 is at most 1: a wrist with one bone three times too long keeps what the other one tells.
+TEST(Reliability, CountsAFarTooLongBoneAsOne) {
+  ReliabilityEstimator estimator;
+  Posture standing = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  estimator.Step(test::AllTracked(standing), nullptr);
+  Posture wrong = standing;
+  const Eigen::Vector3d bone = wrong.position_m[kHandLeft] - wrong.position_m[kHandLeft - 1];
+  wrong.position_m[kHandLeft] += 2.0 * bone;
+  const Reliability r = estimator.Step(test::AllTracked(wrong), nullptr);
+  EXPECT_NEAR(r.kinematics[kHandLeft], 0.0, 1e-9);
+  EXPECT_NEAR(r.kinematics[kHandLeft - 1], 0.5, 1e-9);
+}
+
+TEST(Reliability, MeasuresTheBonesOfGuessedJoints) {
+  ReliabilityEstimator estimator;
+  const Posture standing = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  estimator.Step(test::AllTracked(standing), nullptr);
+  TrackedPosture wrong = test::AllTracked(standing);
+  wrong.state[kHandLeft] = TrackingState::kInferred;
+  wrong.posture.position_m[kHandLeft] +=
+      0.6 * (standing.position_m[kHandLeft] - standing.position_m[kHandLeft - 1]);
+  const Reliability r = estimator.Step(wrong, nullptr);
+  EXPECT_NEAR(r.kinematics[kHandLeft], 0.4, 1e-9);
+  EXPECT_NEAR(r.kinematics[kHandLeft - 1], 0.7, 1e-9);
+}
+
+// The position of a joint that is not tracked is meaningless.
+TEST(Reliability, IgnoresTheMotionOfUntrackedJoints) {
+  ReliabilityEstimator estimator;
+  for (int f = 0; f < 10; ++f) {
+    TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1)));
+    seen.state[kHandLeft] = f % 3 == 0 ? TrackingState::kTracked : TrackingState::kNotTracked;
+    if (f % 3 != 0) seen.posture.position_m[kHandLeft].z() += f % 3 == 1 ? 0.5 : -0.5;
+    EXPECT_EQ(estimator.Step(seen, nullptr).behaviour[kHandLeft], 1.0) << f;
+  }
+}
+
+// A hand four times too far away in the very posture that gives the reference: no person's hand is
+// more than twice as long as the standard body's.
+TEST(Reliability, BoundsReferenceLengthsByTheSizeOfTheBody) {
+  ReliabilityEstimator estimator;
+  const Posture standing = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  Posture wrong = standing;
+  wrong.position_m[kHandLeft] +=
+      3.0 * (standing.position_m[kHandLeft] - standing.position_m[kHandLeft - 1]);
+  ASSERT_TRUE(IsReferencePosture(wrong));
+  estimator.Step(test::AllTracked(wrong), nullptr);
+  const Reliability r = estimator.Step(test::AllTracked(standing), nullptr);
+  EXPECT_NEAR(r.kinematics[kHandLeft], 0.5, 1e-9);  // |1 - 2| / 2
+}
+
+// Fig. 2: the T-pose and the standing pose, and no other.
+TEST(IsReferencePosture, NeedsStraightLegsAndForearms) {
+  EXPECT_TRUE(IsReferencePosture(test::Gesture(0.1, 0.1, 0.1)));
+  EXPECT_TRUE(IsReferencePosture(test::Gesture(1.57, 1.57, 0.0)));
+  EXPECT_FALSE(IsReferencePosture(test::Gesture(0.1, 0.1, 1.5))) << "forearms forward";
+  EXPECT_FALSE(IsReferencePosture(test::Gesture(1.57, 0.1, 1.5))) << "one arm";
+  Posture kneeling = test::Gesture(0.1, 0.1, 0.1);
+  for (const Joint joint : {Joint::kAnkleLeft, Joint::kFootLeft}) {  // a shank 45 degrees back
+    kneeling[joint] += Eigen::Vector3d(0.0, 0.12, -0.29);
+  }
+  EXPECT_FALSE(IsReferencePosture(kneeling));
+}
+
 TEST(Reliability, FallsWithAWrongBoneLength) {  // eqs. 5-6: the hand has one bone
   ReliabilityEstimator estimator;
   const Posture standing = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "depth/base/error.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/models/learned_models.h"
+#include "recon/reliability.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {
@@ -125,6 +127,73 @@ TEST(Liu2016, MinimisesTheWeightedSumOfItsThreeTerms) {
   }
 }
 
+// Eqs. 20-22 written out for a moving hand that is guessed in some frames, of a larger person at
+// uneven times: y = (a mu + w_T (2 M' - M'' - x)) / (a + w_R R^2 + w_T), the last step of M in
+// proportion to time.
+TEST(Liu2016, ContinuesTheMotionOfAPartlyReliableJoint) {
+  ReconstructorOptions options;
+  options.method = "liu-2016";
+  options.learned = LowHand();
+  options.gaussian_process.incremental = false;
+  const auto method = MakeReconstructor(options);
+  constexpr double kSize = 1.2;
+  const Placement placement{{0.1, 0.2, 2.5}, 3.1};
+  ReliabilityEstimator reliability;
+  std::vector<Eigen::Vector3d> made;
+  double t = 0.0, dt_before_s = 0.0;
+  for (int f = 0; f < 8; ++f) {
+    const double dt_s = f % 2 == 0 ? 1.0 / 32 : 1.0 / 16;
+    t += dt_s;
+    const Posture seen = test::Motion(t);
+    TrackedPosture in_camera = test::AllTracked(Placed(Scaled(seen, kSize), placement));
+    if (f % 3 == 1) in_camera.state[kHand] = TrackingState::kInferred;
+    const double r = reliability.Step(in_camera, nullptr, dt_s).rate[kHand];
+    const auto p = options.learned->mixtures[kHand].Predict(JointFeature(seen, kHand), 9);
+    const double a = std::max(0.6 / (1.0 + p.variance / p.noise), 0.2);
+    Eigen::Vector3d sum = a * p.mean;
+    double total = a + 0.2 * r * r;
+    if (f >= 2) {
+      const Eigen::Vector3d step = made.back() - made[made.size() - 2];
+      sum += 0.2 * (made.back() + dt_s / dt_before_s * step - seen.position_m[kHand]);
+      total += 0.2;
+    }
+    const Posture result = method->Step({in_camera, t, nullptr}).posture;
+    made.push_back(Normalised(result, placement).position_m[kHand] / kSize);
+    EXPECT_LT((made.back() - seen.position_m[kHand] - sum / total).norm(), 1e-6) << f;
+    dt_before_s = dt_s;
+  }
+}
+
+// The wrist is seen 5 cm too low, the hand not at all: it stays at the corrected wrist.
+TEST(Liu2016, KeepsAnAbsentHandAtItsWrist) {
+  constexpr size_t kWrist = kHand - 1;
+  std::vector<PosturePair> pairs;
+  for (int f = 0; f < 60; ++f) {
+    PosturePair& pair = pairs.emplace_back();
+    pair.observed = test::Motion(f / 10.0);
+    pair.known.fill(1.0);
+    pair.residual.position_m[kWrist].y() = 0.05;
+  }
+  LearnOptions learn;
+  learn.mixture.regions = 3;
+  learn.mixture.samples = 15;
+  learn.full_samples = 10;
+  learn.correction.centres = 0;
+  ReconstructorOptions options;
+  options.method = "liu-2016";
+  options.learned = std::make_shared<const LearnedModels>(LearnedModels::Learn(pairs, learn));
+  const auto method = MakeReconstructor(options);
+  for (int f = 0; f < 40; ++f) {
+    TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Motion(f / 30.0)));
+    if (f > 9) seen.state[kHand] = TrackingState::kNotTracked;
+    const Posture made = method->Step({seen, f / 30.0, nullptr}).posture;
+    const double hand_m = (made.position_m[kHand] - made.position_m[kWrist]).norm();
+    if (f > 9) {
+      EXPECT_LT(hand_m, StandardBoneLengths()[kHand] + 0.06) << f;
+    }
+  }
+}
+
 /// Pairs of one gesture whose left hand is seen too low by what depends on where it is.
 std::shared_ptr<const LearnedModels> UnevenHand() {
   std::vector<PosturePair> pairs;
@@ -172,6 +241,25 @@ TEST(Liu2016, LearnsUnknownPeopleAndMovementsIncrementally) {
   EXPECT_NEAR(without.back(), without[5], 1e-3);  // nothing else changes with time
   EXPECT_LT(with.back(), 0.6 * with.front());
   EXPECT_LT(with.back(), 0.5 * without.back());
+}
+
+// Algorithm 2 takes samples of high reliability only.
+TEST(Liu2016, LearnsNothingFromGuesses) {
+  std::array<std::unique_ptr<Reconstructor>, 2> methods;
+  for (const bool incremental : {false, true}) {
+    ReconstructorOptions options;
+    options.method = "liu-2016";
+    options.learned = LowHand();
+    options.gaussian_process.incremental = incremental;
+    methods[incremental ? 1 : 0] = MakeReconstructor(options);
+  }
+  for (int f = 0; f < 60; ++f) {
+    TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Motion(f / 30.0)));
+    seen.state.fill(TrackingState::kInferred);
+    const auto plain = methods[0]->Step({seen, f / 30.0, nullptr});
+    const auto learning = methods[1]->Step({seen, f / 30.0, nullptr});
+    ASSERT_EQ(plain.posture.position_m[kHand], learning.posture.position_m[kHand]) << f;
+  }
 }
 
 std::string NameOfCase(const testing::TestParamInfo<std::string>& info) {

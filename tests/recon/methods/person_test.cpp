@@ -25,6 +25,15 @@ TEST(Person, HiddenArmKeepsTheReachOfItsHand) {
   }
 }
 
+// Guessed hips and shoulders tell the heading if there are no better ones.
+TEST(Person, TakesTheHeadingFromGuessesIfNothingIsReliable) {
+  const double yaw_rad = 2.2;
+  TrackedPosture seen =
+      test::AllTracked(Placed(test::Gesture(0.2, 0.3, 0.1), {{0.1, 0.2, 2.5}, yaw_rad}));
+  seen.state.fill(TrackingState::kInferred);
+  EXPECT_NEAR(Person().Prepare({seen, 0.0, nullptr}).placement.yaw_rad, yaw_rad, 1e-9);
+}
+
 // What is not seen of a new person is completed alike whichever way they face.
 TEST(Person, FirstFrameIsCompletedInThePersonsHeading) {
   constexpr std::array kUnseen = {Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft,

@@ -89,6 +89,39 @@ TEST(PoseGraphSearch, NeverReturnsWorseThanItsStart) {
   EXPECT_EQ(found.similarity_m, 0.0);
 }
 
+// Eqs. 6-7 written out: the weighted distances of reliable joints from what is seen, of the others
+// from the prediction.
+TEST(PoseGraphSearch, RanksByEquations6And7) {
+  const auto small =
+      std::make_shared<const PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  PoseQuery query = QueryFor(test::Gesture(1.0, 0.2, 0.9));
+  query.predicted = ToVector(test::Gesture(0.3, 0.8, 0.1, 0.5));
+  for (size_t i = 0; i < kJointCount; ++i) {
+    query.reliability[i] = 0.05 * static_cast<double>(i % 3);
+  }
+  std::vector<std::pair<double, int>> scores;
+  for (int n = 0; n < small->size(); ++n) {
+    const Posture node = small->posture(n);
+    double score = 0.0;
+    for (size_t i = 0; i < kJointCount; ++i) {
+      const double r = query.reliability[i];
+      score += r * (ToPosture(query.observed).position_m[i] - node.position_m[i]).norm();
+      score += (1.0 - r) * (ToPosture(*query.predicted).position_m[i] - node.position_m[i]).norm();
+    }
+    scores.emplace_back(score, n);
+  }
+  std::sort(scores.begin(), scores.end());
+  const auto found = PoseGraphSearch(small).SelectBestOfAll(query, kBest, {});
+  ASSERT_EQ(found.nodes.size(), kBest);
+  for (size_t k = 0; k < kBest; ++k) {
+    // Single precision may exchange equals.
+    const auto of_found = std::find_if(scores.begin(), scores.end(), [&](const auto& scored) {
+      return scored.second == found.nodes[k];
+    });
+    EXPECT_NEAR(of_found->first, scores[k].first, 1e-4) << k;
+  }
+}
+
 TEST(PoseGraphSearch, VisitsEveryNodeOfASmallGraph) {
   const auto small =
       std::make_shared<const PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));

@@ -1,42 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
+#include <array>
 
 #include "recon/database/nearest.h"
 #include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/posture_space_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/orientation.h"
+#include "recon/reliability.h"
 #include "tests/recon/synthetic_motion.h"
 
 namespace ossa::recon {
 namespace {
-
-struct Problem {
-  PostureSpace space;
-  EnergyInputs inputs;
-};
-
-Problem MakeProblem(double t_s, bool history) {
-  static const auto db = PostureDatabase::Build(test::GestureClips(), {});
-  Problem p;
-  p.inputs.observed = ToVector(test::Motion(t_s));
-  p.inputs.reliability.fill(1.0);
-  p.inputs.reliability[7] = 0.0;
-  p.inputs.reliability[9] = 0.4;
-  p.inputs.lengths_m = db.bone_lengths_m();
-  if (history) {
-    p.inputs.last = ToVector(test::Motion(t_s - 1.0 / 30));
-    p.inputs.before_last = ToVector(test::Motion(t_s - 2.0 / 30));
-  }
-  std::vector<int> neighbours;
-  for (const auto& n : NearestPostures(db, p.inputs.observed, p.inputs.reliability, 30)) {
-    neighbours.push_back(n.index);
-  }
-  p.space = MakePostureSpace(db, neighbours, 20);
-  return p;
-}
 
 /// Mean error over a second of increasingly bad guesses for a stationary person, after two seconds
 /// of good observations.
@@ -87,126 +63,75 @@ TEST(InverseDistances, EqualEquation9) {
   }
 }
 
-TEST(PostureSpace, ReproducesItsNeighboursUpToTheStatedResidual) {
-  const Problem p = MakeProblem(1.0, false);
-  EXPECT_LE(p.space.dimensions(), 20);
-  const Eigen::MatrixXf gram = p.space.basis.transpose().lazyProduct(p.space.basis);
-  EXPECT_LT((gram - Eigen::MatrixXf::Identity(gram.rows(), gram.cols())).norm(), 1e-3F);
-  EXPECT_LT(p.space.outside.maxCoeff(), 0.05F);
-}
+/// Sections V-B and VI written out for a person of the standard size, all of whose joints are
+/// present: the postures that minimise eq. 15 frame by frame, normalised.
+class SectionsFiveAndSix {
+ public:
+  SectionsFiveAndSix(std::shared_ptr<const PostureDatabase> database, LocalPcaOptions options,
+                     uint64_t seed)
+      : database_(std::move(database)), options_(std::move(options)), seed_(seed) {}
 
-/// Of the k postures nearest to one of the motion's.
-PostureSpace SpaceOf(const PostureDatabase& db, int k) {
-  JointWeights all;
-  all.fill(1.0);
-  std::vector<int> neighbours;
-  for (const auto& n : NearestPostures(db, ToVector(test::Motion(1.0)), all, k)) {
-    neighbours.push_back(n.index);
-  }
-  return MakePostureSpace(db, neighbours, 20);
-}
+  void Restart() { last_ = before_last_ = std::nullopt; }
 
-// On both sides of K = 60, where another matrix is decomposed: the scatter of the neighbours from
-// their mean, rotated into the space, is diagonal, and its entries are K times the variances.
-TEST(PostureSpace, HasThePrincipalDirectionsOfAnyNumberOfNeighbours) {
-  DatabaseOptions all;
-  all.threshold_m = 1e-4;
-  const auto db = PostureDatabase::Build(test::GestureClips(), all);
-  ASSERT_GE(db.size(), 400);
-  for (const int k : {30, 60, 61, 400}) {
-    const PostureSpace space = SpaceOf(db, k);
-    ASSERT_GT(space.dimensions(), 1) << k;
-    const Eigen::MatrixXf scatter = space.neighbours * space.neighbours.transpose();
-    const Eigen::VectorXf expected = space.deviation.array().square() * static_cast<float>(k);
-    EXPECT_LT((scatter - Eigen::MatrixXf(expected.asDiagonal())).cwiseAbs().maxCoeff(),
-              1e-4F * expected[0])
-        << k;  // single precision
-    EXPECT_TRUE(std::is_sorted(expected.begin(), expected.end(), std::greater<>())) << k;
-    const Eigen::MatrixXf gram = space.basis.transpose().lazyProduct(space.basis);
-    EXPECT_LT((gram - Eigen::MatrixXf::Identity(gram.rows(), gram.cols())).norm(), 1e-3F) << k;
-  }
-}
-
-TEST(EnergyResiduals, HaveTheirJacobian) {
-  for (const bool history : {false, true}) {
-    const Problem p = MakeProblem(1.0, history);
-    const EnergyResiduals residuals(p.space, p.inputs, {}, 3);
-    const Eigen::VectorXd q = 0.5 * p.space.neighbours.col(5).cast<double>();
-    Eigen::VectorXd r, plus, minus;
-    Eigen::MatrixXd jacobian;
-    residuals.Evaluate(q, r, &jacobian);
-    constexpr double kStep = 1e-6;  // central differences: error of order 1e-10
-    for (Eigen::Index c = 0; c < q.size(); ++c) {
-      Eigen::VectorXd moved = q;
-      moved[c] += kStep;
-      residuals.Evaluate(moved, plus, nullptr);
-      moved[c] -= 2 * kStep;
-      residuals.Evaluate(moved, minus, nullptr);
-      const Eigen::VectorXd numeric = (plus - minus) / (2 * kStep);
-      EXPECT_LT((numeric - jacobian.col(c)).cwiseAbs().maxCoeff(), 1e-6) << "column " << c;
+  PostureVector Step(PostureVector observed, JointWeights reliability) {
+    // Not in the paper: at rest while nothing is reliable.
+    if (last_ && *std::max_element(reliability.begin(), reliability.end()) <= 0.05) {
+      observed = *last_;
+      before_last_ = last_;
+      reliability.fill(1.0);
     }
+    std::vector<int> nearest;
+    for (const auto& n : NearestPostures(*database_, observed, reliability, options_.neighbours)) {
+      nearest.push_back(n.index);
+    }
+    const PostureSpace space = MakePostureSpace(*database_, nearest, options_.dimensions);
+    const EnergyInputs inputs{observed, reliability, database_->bone_lengths_m(), last_,
+                              before_last_};
+    const Eigen::VectorXf start =
+        last_ ? space.Project(*last_) : Eigen::VectorXf(space.neighbours.col(0));
+    before_last_ = last_;
+    last_ = space.Posture(SearchStochastic(space, inputs, options_, start, seed_ + frame_++).q);
+    return *last_;
   }
-}
 
-TEST(EnergyResiduals, SumOfSquaresIsTheEnergyOfEquation15) {
-  const Problem p = MakeProblem(0.4, true);
-  const Eigen::VectorXf q = p.space.neighbours.col(4);  // its own nearest neighbour
-  const EnergyResiduals residuals(p.space, p.inputs, {}, 4);
-  Eigen::VectorXd r;
-  residuals.Evaluate(q.cast<double>(), r, nullptr);
-  const double outside = 0.5 * p.space.outside[4] / kJointCount;  // constant, not a residual
-  const float energy = Energies(p.space, p.inputs, {}, q.transpose())[0];
-  EXPECT_NEAR(r.squaredNorm() + outside, energy, 1e-4 * energy);  // single precision
-}
+ private:
+  std::shared_ptr<const PostureDatabase> database_;
+  LocalPcaOptions options_;
+  uint64_t seed_;
+  uint64_t frame_ = 0;
+  std::optional<PostureVector> last_, before_last_;
+};
 
-// In numbers: one dimension, the head's x. The head at 0.3 m, its bone wanted 0.2 m long, seen at
-// 0.1 m and half believed, 0.1 m from the nearest of two neighbours, expected at 0.25 m.
-TEST(Energies, EqualEquation15) {
-  Problem p;
-  const Eigen::Index head = FirstCoordinate(Index(Joint::kHead));
-  p.space.basis.setZero(kPostureDims, 1);
-  p.space.basis(head, 0) = 1.0F;
-  p.space.neighbours.resize(1, 2);
-  p.space.neighbours << 0.2F, 0.6F;
-  p.space.outside.setZero(2);
-  p.inputs.observed[head] = 0.1F;
-  p.inputs.reliability[Index(Joint::kHead)] = 0.5;
-  p.inputs.lengths_m[Index(Joint::kHead)] = 0.2;
-  p.inputs.last.emplace(PostureVector::Zero())[head] = 0.2F;
-  p.inputs.before_last.emplace(PostureVector::Zero())[head] = 0.15F;
-  const Eigen::MatrixXf q = Eigen::MatrixXf::Constant(1, 1, 0.3F);
-  const double control = 0.5 * 0.04, style = 0.01 / 20, kinematics = 0.01 / 19;
-  const double continuity = 0.0025 / 20;
-  const double expected = control + 0.5 * style + 1.5 * kinematics + 0.25 * continuity;  // 0.02107
-  EXPECT_NEAR(Energies(p.space, p.inputs, {}, q)[0], expected, 1e-6);  // single precision
-}
-
-TEST(SearchStochastic, IsDeterministicForASeed) {
-  const Problem p = MakeProblem(1.7, true);
-  const Eigen::VectorXf start = p.space.neighbours.col(0);
-  EXPECT_EQ(SearchStochastic(p.space, p.inputs, {}, start, 3).q,
-            SearchStochastic(p.space, p.inputs, {}, start, 3).q);
-}
-
-// From the neighbour farthest off, as after a jump.
-TEST(SearchStochastic, ImprovesOnItsStart) {
-  for (const double t : {0.3, 1.1, 1.7, 2.4}) {
-    const Problem p = MakeProblem(t, true);
-    const Eigen::VectorXf start = p.space.neighbours.rightCols(1);
-    const double before = Energies(p.space, p.inputs, {}, start.transpose())[0];
-    EXPECT_LT(SearchStochastic(p.space, p.inputs, {}, start, 3).energy, 0.5 * before) << t;
-  }
-}
-
-// Two searches of the same energy: the results differ by less than a seventh.
-TEST(Searches, FindTheSameMinimum) {
-  for (const double t : {0.3, 1.1, 2.4}) {
-    const Problem p = MakeProblem(t, true);
-    const Eigen::VectorXf start = p.space.neighbours.col(0);
-    const auto random = SearchStochastic(p.space, p.inputs, {}, start, 1);
-    const auto exact = SearchCeres(p.space, p.inputs, {}, start);
-    EXPECT_LE(exact.energy, 1.15 * random.energy) << t;
-    EXPECT_LE(random.energy, 1.15 * exact.energy) << t;
+// With an arm guessed, everything guessed, and a gap of seconds; with reliabilities and without
+// (method B).
+TEST(Shum2013, IsSectionsFiveAndSixWrittenOut) {
+  for (const bool use_reliability : {true, false}) {
+    ReconstructorOptions options;
+    options.method = "shum-2013";
+    options.database =
+        std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+    options.local_pca.use_reliability = use_reliability;
+    const auto method = MakeReconstructor(options);
+    SectionsFiveAndSix expected(options.database, options.local_pca, options.seed);
+    ReliabilityEstimator reliability;
+    for (int f = 0; f < 36; ++f) {
+      const double t = f / 30.0 + (f >= 30 ? 20.0 : 0.0);
+      const Posture posture = test::Motion(f / 10.0);
+      TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(posture));
+      for (size_t i = 0; i < kJointCount; ++i) {
+        const bool arm = i >= 5 && i < 8;
+        if ((arm && f >= 6) || (f >= 16 && f < 28)) seen.state[i] = TrackingState::kInferred;
+      }
+      if (f == 30) expected.Restart(), reliability.ForgetMotion();
+      JointWeights weights = reliability.Step(seen, nullptr).rate;
+      if (!use_reliability) weights.fill(1.0);
+      const Posture made = method->Step({seen, t, nullptr}).posture;
+      const Posture wanted =
+          test::InFrontOfCamera(ToPosture(expected.Step(ToVector(posture), weights)));
+      for (size_t i = 0; i < kJointCount; ++i) {
+        ASSERT_LT((made.position_m[i] - wanted.position_m[i]).norm(), 5e-3) << f << " " << i;
+      }
+    }
   }
 }
 
@@ -234,6 +159,60 @@ double TurnedApart_deg(bool extend) {
     }
   }
   return sum_rad / (6.0 * (kFrames - kFrom)) * 180.0 / M_PI;
+}
+
+/// Mean error of the left shank, held back as no posture of the database has it, in the second half
+/// of a second.
+double ErrorOfAHeldBackShank_m(bool extend) {
+  ReconstructorOptions options;
+  options.method = "shum-2013";
+  options.database =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  options.local_pca.extend_database = extend;
+  const auto method = MakeReconstructor(options);
+  double sum_m = 0.0;
+  for (int f = 0; f < 30; ++f) {
+    Posture truth = test::Gesture(0.3, 0.3, 0.2);
+    for (const Joint joint : {Joint::kAnkleLeft, Joint::kFootLeft}) {
+      truth[joint] += Eigen::Vector3d(0.0, 0.12, -0.29);
+    }
+    truth = test::InFrontOfCamera(truth);
+    const Posture made = method->Step({test::AllTracked(truth), f / 30.0, nullptr}).posture;
+    if (f >= 15) sum_m += (made[Joint::kAnkleLeft] - truth[Joint::kAnkleLeft]).norm() / 15;
+  }
+  return sum_m;
+}
+
+// Sec. IX: the system adapts to unexpected movements.
+TEST(Shum2013, LearnsAPostureThatTheDatabaseLacks) {
+  EXPECT_GT(ErrorOfAHeldBackShank_m(false), 0.1);
+  EXPECT_LT(ErrorOfAHeldBackShank_m(true), 0.05);
+}
+
+// ... from correctly tracked postures only.
+TEST(Shum2013, LearnsNothingFromGuessedPostures) {
+  std::array<std::unique_ptr<Reconstructor>, 2> methods;
+  for (const bool extend : {false, true}) {
+    ReconstructorOptions options;
+    options.method = "shum-2013";
+    options.database =
+        std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+    options.local_pca.extend_database = extend;
+    methods[extend ? 1 : 0] = MakeReconstructor(options);
+  }
+  for (int f = 0; f < 30; ++f) {
+    // The left arm is higher than in any posture of the database.
+    TrackedPosture seen =
+        test::AllTracked(test::InFrontOfCamera(test::Gesture(2.8, 0.3, 0.1 + 0.02 * f)));
+    for (const Joint joint : {Joint::kElbowLeft, Joint::kWristLeft, Joint::kHandLeft}) {
+      seen.state[Index(joint)] = TrackingState::kInferred;
+    }
+    const auto plain = methods[0]->Step({seen, f / 30.0, nullptr});
+    const auto extended = methods[1]->Step({seen, f / 30.0, nullptr});
+    for (size_t i = 0; i < kJointCount; ++i) {
+      ASSERT_EQ(plain.posture.position_m[i], extended.posture.position_m[i]) << f;
+    }
+  }
 }
 
 TEST(Shum2013, AddedPosturesHaveOrientations) {

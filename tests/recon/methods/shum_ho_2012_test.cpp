@@ -47,6 +47,9 @@ TEST(ShumHo2012, CompletesMissingJointsFromTheMatchedPostureAtOnce) {
   const auto method = MakeReconstructor(options);
   const Posture posture = test::Gesture(0.6, 1.1, 0.4, 0.3);
   TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(posture));
+  for (const size_t joint : {9U, 10U, 11U}) {  // guessed, which counts as seen
+    seen.state[joint] = TrackingState::kInferred;
+  }
   for (int f = 0; f < 10; ++f) method->Step({seen, f / 30.0, nullptr});
   for (const size_t joint : kLeftArm) {  // from this frame on
     seen.state[joint] = TrackingState::kNotTracked;

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "recon/models/local_mixture.h"
@@ -113,6 +114,34 @@ TEST(BudgetedSamples, DropTheSampleWithTheLeastKlDivergenceFirst) {
   EXPECT_EQ(std::count(kept.begin(), kept.end(), static_cast<int>(least)), 0);
 }
 
+/// The rows left after removing, again and again, the one of least divergence.
+std::vector<int> BudgetedByBruteForce(const GaussianProcessParameters& p, const Samples& s,
+                                      size_t keep) {
+  std::vector<int> rows(static_cast<size_t>(s.x.rows()));
+  std::iota(rows.begin(), rows.end(), 0);
+  while (rows.size() > keep) {
+    const Samples left{s.x(rows, Eigen::all), s.y(rows, Eigen::all)};
+    Eigen::Index least = 0;
+    for (Eigen::Index t = 1; t < left.x.rows(); ++t) {
+      if (KlWithout(p, left, t) < KlWithout(p, left, least)) least = t;
+    }
+    rows.erase(rows.begin() + least);
+  }
+  return rows;
+}
+
+TEST(BudgetedSamples, AreThoseOfBruteForce) {
+  for (const double noise_m : {0.0, 0.01, 0.05}) {
+    const Samples s = MakeSamples(14, noise_m);
+    const GaussianProcessParameters p{2e-3, 5e-4, 30.0, 5e3};
+    for (const int keep : {10, 5, 1}) {
+      EXPECT_EQ(BudgetedSamples(p, s.x, s.y, keep),
+                BudgetedByBruteForce(p, s, static_cast<size_t>(keep)))
+          << noise_m << " " << keep;
+    }
+  }
+}
+
 // Eqs. 10, 12 and 13 written out, over the L nearest centres. The kernels' own widths differ by a
 // factor of a thousand: the widest must not dominate far from its samples.
 TEST(LocalMixture, WeighsTheNearestModelsByACommonKernel) {
@@ -156,6 +185,55 @@ TEST(LocalMixture, FitsTheFunctionAndAddsModelsForNewRegions) {
   mixture.Update(Eigen::Vector2d(50.0, 50.001), {0.1, 0.2, 0.3}, options);
   EXPECT_EQ(mixture.models().size(), before + 1);
   EXPECT_EQ(mixture.models().back().size(), 2);
+}
+
+TEST(KMeans, SeparatesDistantClusters) {
+  Eigen::MatrixXd x(30, 2);
+  for (int i = 0; i < 30; ++i) x.row(i) << 5.0 * (i % 3) + 0.01 * i, 0.02 * (i % 7);
+  const auto region = KMeans(x, 3, 1);
+  for (size_t i = 0; i < 30; ++i) EXPECT_EQ(region[i], region[i % 3]) << i;
+  EXPECT_NE(region[0], region[1]);
+  EXPECT_NE(region[1], region[2]);
+  EXPECT_NE(region[0], region[2]);
+}
+
+/// A model of one sample at the origin, of other parameters than the default ones.
+LocalMixture MixtureAtTheOrigin() {
+  const GaussianProcessParameters p{2e-3, 5e-4, 30.0, 5e3};
+  return LocalMixture({{p, Eigen::RowVector2d(0.0, 0.0), Eigen::RowVector3d(0.1, 0.0, 0.0)}});
+}
+
+// Algorithm 2: similarity exp(-15 d^2) to the mean of a model's samples; at 0.39 m it is 0.102.
+TEST(LocalMixture, UpdatesTheCentreOfTheModel) {
+  LocalMixture mixture = MixtureAtTheOrigin();
+  const Eigen::VectorXd at = Eigen::Vector2d(0.39, 0.0);
+  EXPECT_NEAR(mixture.Similarity(at), std::exp(-15.0 * 0.39 * 0.39), 1e-12);
+  mixture.Update(at, Eigen::Vector3d::Zero(), {});
+  EXPECT_EQ(mixture.models().size(), 1u);
+  EXPECT_NEAR(mixture.Similarity(at), std::exp(-15.0 * 0.195 * 0.195), 1e-12);
+}
+
+TEST(LocalMixture, NewModelsHaveTheParametersOfTheMostSimilarOneAndAreBounded) {
+  LocalMixture mixture = MixtureAtTheOrigin();
+  LocalMixtureOptions options;
+  options.most_models = 3;
+  for (const double x : {0.4, 1.0, 2.0}) {  // similarities below 0.1
+    mixture.Update(Eigen::Vector2d(x, 0.0), Eigen::Vector3d::Zero(), options);
+  }
+  ASSERT_EQ(mixture.models().size(), 3u);
+  EXPECT_EQ(mixture.models().back().parameters().beta, 5e3);
+  EXPECT_EQ(mixture.models().back().parameters().theta0, 2e-3);
+}
+
+// Of a person who stands still: one sample, or the same one again and again.
+TEST(LocalMixture, LearnsFromASingleSampleAndFromEqualOnes) {
+  for (const Eigen::Index count : {1, 80}) {
+    const Eigen::MatrixXd x = Eigen::RowVector2d(0.3, -0.1).replicate(count, 1);
+    const Eigen::MatrixXd y = Eigen::RowVector3d(0.05, 0.0, -0.02).replicate(count, 1);
+    const GaussianPrediction made = LocalMixture::Learn(x, y, {}).Predict(x.row(0).transpose(), 9);
+    EXPECT_LT((made.mean - y.row(0).transpose()).norm(), 0.01) << count;
+    EXPECT_TRUE(std::isfinite(made.variance)) << count;
+  }
 }
 
 // Sec. 4.2.3: online, too, posture budgeting keeps a model small, and it goes on learning.
