@@ -135,6 +135,67 @@ TEST(InverseDynamics, CentreOfPressureEqualsThatOfAnInvertedPendulum) {
   EXPECT_NEAR(d.ground_force_n.x(), kMass_kg * acceleration, 0.02);
 }
 
+/// The standing person turned as a whole about an axis through the hips.
+Posture TurnedAboutHips(const Vector3d& turn_rad) {
+  Posture posture = StandingPerson();
+  const Vector3d hips = posture[Joint::kHipCenter];
+  const Eigen::AngleAxisd turn(turn_rad.norm(), turn_rad.stableNormalized());
+  for (Vector3d& p : posture.position_m) p = hips + turn * (p - hips);
+  return posture;
+}
+
+/// Moment of inertia of the standing person about the hips, kg m^2, about the world's axes.
+Eigen::Matrix3d InertiaAboutHips() {
+  const Posture posture = StandingPerson();
+  const auto turns = recon::ComputeOrientations(posture);
+  const Segments segments = ComputeSegments(Lengths(), 0.0, kMass_kg);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (size_t i = 1; i < recon::kJointCount; ++i) {
+    const Segment& s = segments[i];
+    const Vector3d r = 0.5 * (posture.position_m[i] + posture.position_m[recon::ParentOf(i)]) -
+                       posture[Joint::kHipCenter];
+    const Eigen::Matrix3d axes = turns[i].toRotationMatrix();
+    const Vector3d own(s.transverse_inertia_kgm2, s.axial_inertia_kgm2, s.transverse_inertia_kgm2);
+    sum += axes * own.asDiagonal() * axes.transpose() +
+           s.mass_kg * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+  }
+  return sum;
+}
+
+// Euler's equation of a rigid body that turns steadily about a tilted axis in weightlessness: the
+// moment w x I w is missing at the end of the chain, the hips.
+TEST(InverseDynamics, SteadyTumblingNeedsEulersMoment) {
+  const Vector3d rate_rad_s(0.0, 1.5, 2.0);
+  std::vector<BodyPose> motion;
+  for (int k = -20; k <= 20; ++k) {
+    const double t = kFrame_s * k;
+    BodyPose pose{t, TurnedAboutHips(t * rate_rad_s), recon::ComputeOrientations(StandingPerson())};
+    const Eigen::Quaterniond turn(
+        Eigen::AngleAxisd(t * rate_rad_s.norm(), rate_rad_s.normalized()));
+    for (auto& orientation : pose.orientation) orientation = turn * orientation;
+    motion.push_back(pose);
+  }
+  DynamicsOptions options;
+  options.mass_kg = kMass_kg;
+  options.window_s = 3.0 * kFrame_s;
+  options.gravity_m_s2 = 0.0;
+  const Vector3d moment = ComputeDynamics(Lengths(), motion, options)[20].torque_nm[Joint::kSpine];
+  const Vector3d expected = rate_rad_s.cross(InertiaAboutHips() * rate_rad_s);
+  EXPECT_GT(expected.norm(), 1.0);
+  EXPECT_LT((moment - expected).norm(), 2e-3 * expected.norm());  // the parabola's error
+}
+
+// Turning faster and faster about the vertical: the ground's moment is I times the acceleration.
+TEST(InverseDynamics, FreeMomentTurnsTheBody) {
+  constexpr double kAcceleration_rad_s2 = 2.0;
+  const Dynamics d = MiddleOf([](double t) {
+    return TurnedAboutHips({0.0, 0.5 * kAcceleration_rad_s2 * t * t, 0.0});
+  });
+  const double expected = InertiaAboutHips()(1, 1) * kAcceleration_rad_s2;
+  ASSERT_TRUE(d.centre_of_pressure_m);
+  EXPECT_NEAR(d.free_moment_nm, expected, 0.02 * expected);  // it acts beside the hips' axis
+}
+
 TEST(InverseDynamics, StandingOnOneLegLoadsThatLeg) {
   Posture posture = StandingPerson();
   for (const Joint joint : {Joint::kAnkleLeft, Joint::kFootLeft}) {
