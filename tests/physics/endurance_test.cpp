@@ -47,8 +47,8 @@ TEST_P(Latency, OfTheFilterIsAtMostAFrame) {
 
 INSTANTIATE_TEST_SUITE_P(BothControls, Latency, testing::Values(Control::kPaper, Control::kMotor));
 
-/// Mean movement of a joint between frames, metres, of a standing person seen with a centimetre of
-/// noise.
+/// Mean movement of a joint between frames, metres, of a standing person seen with two
+/// centimetres of noise.
 double Unrest_m(double lead) {
   CharacterFilterOptions options;
   options.lead = lead;
@@ -58,7 +58,7 @@ double Unrest_m(double lead) {
   Posture before;
   double sum_m = 0.0;
   for (int i = 0; i < 150; ++i) {
-    const Posture seen = test::Shaken(StandingPerson(), 0.01, random);
+    const Posture seen = test::Shaken(StandingPerson(), 0.02, random);
     const Posture now = filter.Step(seen, {}, Ground(), kFrame_s).posture;
     for (size_t j = 0; i > 15 && j < recon::kJointCount; ++j) {
       sum_m += (now.position_m[j] - before.position_m[j]).norm() / (134 * recon::kJointCount);
@@ -68,8 +68,9 @@ double Unrest_m(double lead) {
   return sum_m;
 }
 
-// What removes the lag of motion does not follow noise, which goes to and fro.
-TEST(CharacterFilter, LeadAddsLittleNoise) { EXPECT_LT(Unrest_m(1.0), 1.3 * Unrest_m(0.0)); }
+// What removes the lag of motion does not follow noise, which goes to and fro: without that
+// distinction noise would grow by 40 %.
+TEST(CharacterFilter, LeadAddsLittleNoise) { EXPECT_LT(Unrest_m(1.0), 1.1 * Unrest_m(0.0)); }
 
 std::vector<double> Dance() {
   CharacterFilter filter(Lengths());

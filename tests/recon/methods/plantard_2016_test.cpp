@@ -50,7 +50,7 @@ TEST(Plantard2016, FindsAPostureFarFromTheLastOneInOneFrame) {
   ReconstructorOptions options;
   options.method = "plantard-2016";
   options.database = std::make_shared<PostureDatabase>(PostureDatabase::Build(clips, {}));
-  options.local_pca.neighbours = 3;
+  options.local_pca.neighbours = 2;
   const auto method = MakeReconstructor(options);
   const Posture hanging = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.0));
   const Posture raised = test::InFrontOfCamera(test::Gesture(2.6, 2.9, 0.0, 1.5));
@@ -118,7 +118,7 @@ TEST(Plantard2016, IsSectionSixWrittenOut) {
   for (int f = 0; f < 16; ++f) {
     const double dt_s = f % 2 == 0 ? 1.0 / 32 : 1.0 / 16;
     t += dt_s;
-    const Posture posture = test::Motion(3.0 * t);
+    const Posture posture = test::Motion(6.0 * t);  // 20 cm and more between frames
     TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(posture));
     for (size_t i = 5; i < 8; ++i) {  // from the sixth frame on an arm is guessed
       if (f > 5) seen.state[i] = TrackingState::kInferred;
