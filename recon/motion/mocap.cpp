@@ -90,10 +90,16 @@ class Loader {
     throw InputError(name + ": expected a .bvh, .amc or humanoid3d_*.txt file");
   }
 
-  /// Warns of a mapping that names no joint of any file; else "".
-  std::string WarnOfMapping() const {
-    if (!mapping_ || is_mapping_used_) return "";
-    return mapping_->file + ": is not used: no file has a joint of a name in it";
+  /// Options that no file used, a warning each.
+  std::vector<std::string> DescribeUnused() const {
+    std::vector<std::string> unused;
+    if (mapping_ && !is_mapping_used_) {
+      unused.push_back(mapping_->file + ": is not used: no file has a joint of a name in it");
+    }
+    if (options_.amc_hz > 0.0 && skeletons_.empty()) {
+      unused.push_back("--amc-fps is not used: no file is an AMC file");
+    }
+    return unused;
   }
 
  private:
@@ -191,8 +197,9 @@ std::vector<MotionClip> LoadMocap(const std::vector<std::string>& sources,
       for (MotionClip& clip : people) clips.push_back(std::move(clip));
     }
   }
-  const std::string unused = loader.WarnOfMapping();
-  if (!unused.empty() && !clips.empty()) clips.front().warnings.push_back(unused);
+  for (std::string& unused : loader.DescribeUnused()) {
+    if (!clips.empty()) clips.front().warnings.push_back(std::move(unused));
+  }
   std::stable_sort(clips.begin(), clips.end(),
                    [](const MotionClip& a, const MotionClip& b) { return a.name < b.name; });
   return clips;

@@ -114,6 +114,16 @@ TEST_F(AcclaimTest, WarnsOnceOfTheAssumedRateUnlessGiven) {
   EXPECT_EQ(given[0].frames.size(), 31u);
 }
 
+TEST_F(AcclaimTest, WarnsOfARateThatNoFileUses) {
+  MocapOptions options;
+  options.amc_hz = 60.0;
+  std::vector<std::string> warnings;
+  for (const MotionClip& clip : LoadMocap({"authored-floor"}, options)) {
+    warnings.insert(warnings.end(), clip.warnings.begin(), clip.warnings.end());
+  }
+  EXPECT_EQ(warnings, std::vector<std::string>{"--amc-fps is not used: no file is an AMC file"});
+}
+
 TEST_F(AcclaimTest, BonesLeftOutOfAFrameStayAsTheyWere) {
   const MotionClip clip = Load(kHeader + kStanding + "rtibia 90 0 0\n" +
                                "2\nroot 0 15 0 0 0 0\n3\nroot 0 15 0 0 0 0\n" +
