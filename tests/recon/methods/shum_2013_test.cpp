@@ -135,15 +135,20 @@ TEST(Shum2013, IsSectionsFiveAndSixWrittenOut) {
   }
 }
 
-/// Mean angle between a method's orientations and what joints tell of them, of bones whose turn
-/// joints tell well, after a second of postures that the database does not have and is extended by.
-double TurnedApart_deg(bool extend) {
+/// The method, which adds unexpected postures to its database or not.
+std::unique_ptr<Reconstructor> MakeExtending(bool extend) {
   ReconstructorOptions options;
   options.method = "shum-2013";
   options.database =
       std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
   options.local_pca.extend_database = extend;
-  const auto method = MakeReconstructor(options);
+  return MakeReconstructor(options);
+}
+
+/// Mean angle between a method's orientations and what joints tell of them, of bones whose turn
+/// joints tell well, after a second of postures that the database does not have and is extended by.
+double TurnedApart_deg(bool extend) {
+  const auto method = MakeExtending(extend);
   double sum_rad = 0.0;
   constexpr int kFrames = 30, kFrom = 15;
   for (int f = 0; f < kFrames; ++f) {
@@ -164,12 +169,7 @@ double TurnedApart_deg(bool extend) {
 /// Mean error of the left shank, held back as no posture of the database has it, in the second half
 /// of a second.
 double ErrorOfAHeldBackShank_m(bool extend) {
-  ReconstructorOptions options;
-  options.method = "shum-2013";
-  options.database =
-      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
-  options.local_pca.extend_database = extend;
-  const auto method = MakeReconstructor(options);
+  const auto method = MakeExtending(extend);
   double sum_m = 0.0;
   for (int f = 0; f < 30; ++f) {
     Posture truth = test::Gesture(0.3, 0.3, 0.2);
@@ -192,14 +192,7 @@ TEST(Shum2013, LearnsAPostureThatTheDatabaseLacks) {
 // ... from correctly tracked postures only.
 TEST(Shum2013, LearnsNothingFromGuessedPostures) {
   std::array<std::unique_ptr<Reconstructor>, 2> methods;
-  for (const bool extend : {false, true}) {
-    ReconstructorOptions options;
-    options.method = "shum-2013";
-    options.database =
-        std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
-    options.local_pca.extend_database = extend;
-    methods[extend ? 1 : 0] = MakeReconstructor(options);
-  }
+  for (const bool extend : {false, true}) methods[extend ? 1 : 0] = MakeExtending(extend);
   for (int f = 0; f < 30; ++f) {
     // The left arm is higher than in any posture of the database.
     TrackedPosture seen =
