@@ -114,8 +114,8 @@ ForestModel LearnProposals(const ForestModel& model, const TrainingSource& valid
                            size_t max_images, int threads);
 
 struct RefinementOptions {
-  int hidden = 512;  // units of the hidden layer, 1..1024
-  int epochs = 5;    // passes over the images
+  int hidden = 1024;  // units of the hidden layer, 1..1024
+  int epochs = 8;     // passes over the images; half a million images ask for no more
   uint64_t seed = 1;
   int threads = 0;                                 // 0: all; they do not change the model
   std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all

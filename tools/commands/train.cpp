@@ -76,6 +76,7 @@ forest::ForestModel Refined(const TrainArguments& a, const forest::ForestModel& 
   forest::RefinementOptions options;
   options.seed = a.options.seed;
   options.threads = a.options.threads;
+  options.epochs = a.refinement_epochs;
   options.stop = Interrupted;
   options.progress = [&](int64_t done, int64_t total) {
     bar.Update(static_cast<double>(done), static_cast<double>(total));
@@ -192,6 +193,9 @@ void CheckTellsPeople(const forest::ForestModel& model, const TrainArguments& a)
   if (model.context_count() > 1 && model.data().context_names != ours.context_names) {
     throw InputError(name + ": contexts: expected facing sectors or a single one, found others");
   }
+  if (a.datasets.empty() && model.data().pose_priors.empty()) {
+    throw InputError(name + ": pose prior: expected one where no DATASET is given, found none");
+  }
   if (a.refinement.empty() || model.data().class_names == ours.class_names) return;
   throw InputError(name + ": classes: expected our parts for --refinement, found others");
 }
@@ -201,8 +205,10 @@ int RelearnProposals(const TrainArguments& a) {
   CheckTellsPeople(old, a);
   const TrainData data = OpenData(a);
   CheckSizes(a, data);
-  const forest::ForestModel learned =
-      LearnJoints(a, FitToSizeLimit(a, old), data.training, data.held_out);
+  const forest::ForestModel trees = FitToSizeLimit(a, old);
+  const forest::ForestModel learned = a.datasets.empty()
+                                          ? Refined(a, trees, InterruptedSource(data.held_out))
+                                          : LearnJoints(a, trees, data.training, data.held_out);
   Write(a, learned, UpdateCard(learned, a, data.training));
   return 0;
 }

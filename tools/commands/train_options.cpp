@@ -99,6 +99,11 @@ void AddDataOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
   app->add_option("--refinement", a->refinement,
                   "data sets of training subjects that no tree has seen: the second stage, which "
                   "corrects joint positions, is trained on them");
+  app->add_option("--refinement-epochs", a->refinement_epochs,
+                  "passes of the second stage over its images, each also mirrored: more for few "
+                  "images")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
   app->add_option("--memory", words->memory, "memory for images; larger data are streamed in parts")
       ->capture_default_str();
   app->add_option("--max-megabytes", words->max_megabytes,
@@ -120,7 +125,9 @@ void AddRunOptions(CLI::App* app, TrainArguments* a) {
   app->add_flag("--quiet", a->quiet, "no progress");
   auto* trees_of = app->add_option("--trees-of", a->trees_of,
                                    "keep the trees of this model; learn only the pose prior (on "
-                                   "DATASET) and the proposals (on --validation)");
+                                   "DATASET) and the proposals (on --validation). Without DATASET "
+                                   "these are kept, too, and only the second stage is learned (on "
+                                   "--refinement)");
   auto* import_pcl = app->add_option("--import-pcl", a->import_pcl,
                                      "convert PCL people trees (text) to a model instead of "
                                      "training; joint proposals are learned on --validation");
@@ -152,7 +159,7 @@ void CheckGoTogether(const CLI::App& app) {
       "--trees",         "--depth",         "--candidates", "--thresholds",  "--pixels",
       "--refill-pixels", "--box",           "--offsets",    "--node-pixels", "--min-node-pixels",
       "--min-gain",      "--context-share", "--vote-depth", "--memory"};
-  constexpr std::array kOfData = {"DATASET", "--refinement", "--terms"};
+  constexpr std::array kOfData = {"DATASET", "--refinement", "--refinement-epochs", "--terms"};
   const auto refuse = [&app](auto options, const char* with) {
     for (const char* option : options) {
       if (app.count(option) == 0 || app.count(with) == 0) continue;
@@ -162,6 +169,16 @@ void CheckGoTogether(const CLI::App& app) {
   refuse(kOfTrees, "--trees-of");
   refuse(kOfTrees, "--import-pcl");
   refuse(kOfData, "--import-pcl");
+}
+
+void CheckHasData(const TrainArguments& a) {
+  if (!a.datasets.empty() || !a.import_pcl.empty()) return;
+  const bool is_second_stage_alone =
+      !a.trees_of.empty() && !a.refinement.empty() && !a.validation.empty();
+  if (is_second_stage_alone) return;
+  throw UsageError(a.trees_of.empty()
+                       ? "DATASET is required"
+                       : "DATASET is required, or --refinement and --validation without it");
 }
 
 }  // namespace
@@ -176,7 +193,7 @@ TrainArguments ParseTrainOptions(int argc, char** argv) {
   Parse(app, argc, argv);
   CheckNotOtherKind("--out", a.out.string(), ".ossa");
   CheckOutputs({a.out.string()}, ListInputs(a));
-  if (a.import_pcl.empty() && a.datasets.empty()) throw UsageError("DATASET is required");
+  CheckHasData(a);
   a.options.memory_bytes = ParseMemory(words.memory);
   if (words.max_megabytes > 0) a.max_bytes = static_cast<uint64_t>(words.max_megabytes * 1e6);
   AtomicFile::CheckWritable(a.out);

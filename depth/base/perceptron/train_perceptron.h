@@ -27,9 +27,7 @@ struct PerceptronTraining {
   Eigen::Index batch = kPerceptronBatch;
   float rate = 1e-3F;   // Adam's maximum learning rate; its authors' default (Kingma and Ba 2015)
   float decay = 0.02F;  // weight decay per unit of the learning rate; chosen on validation subjects
-  /// Dropout, share of hidden units; chosen on validation subjects: for a forest's refinement 0.2
-  /// and 0 are worse.
-  float dropped = 0.1F;
+  float dropped = 0.1F;           // dropout, share of hidden units; chosen on validation subjects
   double least_deviation = 1e-3;  // added to each input's standard deviation, in its unit; by hand
   bool clip_inputs = false;       // clip outliers in training, as Perceptron::Normalise does
   uint64_t seed = 1;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "forest/forest.h"
 #include "recon/body/body_model.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
@@ -28,6 +29,14 @@ class BadDataSet : public ::testing::Test {
   }
   std::string data() const { return (folder_.path() / "data").string(); }
   std::string model() const { return (folder_.path() / "model.ossa").string(); }
+  // Another data set, of 80 frames.
+  std::string RenderEnoughForASecondStage() const {
+    const std::string fresh = folder_ / "fresh";
+    const CommandResult made = RunOssa({"render", "--mocap", "authored", "--out", fresh, "--frames",
+                                        "80", "--size", "96x72", "--quiet"});
+    EXPECT_EQ(made.exit_status, 0) << made.err;
+    return fresh;
+  }
 
   // One line that names `culprit`, and no model. (Data that is validated on itself is warned of.)
   void ExpectRefused(const std::string& culprit) const {
@@ -274,11 +283,7 @@ TEST_F(BadDataSet, CardNamesTermsOfMotionByItsFolder) {
 
 // The card left out the data of a kept relabelling.
 TEST_F(BadDataSet, CardKeepsTheDataOfAKeptRelabelling) {
-  const std::string fresh = folder_ / "fresh", again = folder_ / "again.ossa";
-  ASSERT_EQ(RunOssa({"render", "--mocap", "authored", "--out", fresh, "--frames", "80", "--size",
-                     "96x72", "--quiet"})
-                .exit_status,
-            0);
+  const std::string fresh = RenderEnoughForASecondStage(), again = folder_ / "again.ossa";
   const std::vector<std::string> quick = {"--validation", fresh, "--quiet", "--out"};
   const auto train = [&](std::vector<std::string> words, const std::string& out) {
     words.insert(words.end(), quick.begin(), quick.end());
@@ -290,10 +295,52 @@ TEST_F(BadDataSet, CardKeepsTheDataOfAKeptRelabelling) {
   const std::string refined = train(
       {"train", fresh, "--trees", "1", "--depth", "3", "--pixels", "50", "--refinement", fresh},
       model());
-  EXPECT_NE(refined.find("512 units, joint-conditioned"), std::string::npos) << refined;
+  EXPECT_NE(refined.find("1024 units, joint-conditioned"), std::string::npos) << refined;
   const std::string kept = train({"train", fresh, "--trees-of", model()}, again);
   EXPECT_NE(kept.find("no second stage, joint-conditioned"), std::string::npos) << kept;
   EXPECT_NE(kept.find("\"refinement_data\""), std::string::npos) << kept;
+}
+
+// Its examples are the same ones, and trees, pose prior and proposals are kept.
+TEST_F(BadDataSet, SecondStageAloneIsThatOfTheWholeTraining) {
+  const std::string fresh = RenderEnoughForASecondStage(), again = folder_ / "again.ossa";
+  const std::vector<std::string> second = {"--refinement",        fresh, "--validation", fresh,
+                                           "--refinement-epochs", "2",   "--quiet"};
+  const auto train = [&](std::vector<std::string> words) {
+    words.insert(words.end(), second.begin(), second.end());
+    const CommandResult result = RunOssa(words);
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+  };
+  train({"train", fresh, "--out", model(), "--trees", "1", "--depth", "3", "--pixels", "50"});
+  train({"train", "--trees-of", model(), "--out", again});
+  forest::ForestData whole = forest::ReadForestModel(model()).data();
+  forest::ForestData alone = forest::ReadForestModel(again).data();
+  EXPECT_NE(alone.manifest, whole.manifest) << "its card names the command";
+  alone.manifest = whole.manifest;
+  const auto bytes = [&](forest::ForestData kept) {
+    forest::WriteForestModel(folder_ / "kept.ossa", forest::ForestModel(std::move(kept)));
+    return BytesOf(folder_ / "kept.ossa");
+  };
+  EXPECT_EQ(bytes(std::move(alone)), bytes(std::move(whole)));
+}
+
+TEST_F(BadDataSet, SecondStageAloneNeedsDataAndAPosePrior) {
+  const auto train = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"train", "--out", folder_ / "x.ossa", "--trees-of"});
+    return RunOssa(more);
+  };
+  std::ofstream(folder_ / "pcl.txt") << "1\n100 0 0 100 50\n3\n9\n";
+  const std::string joints = folder_ / "joints.ossa";
+  ASSERT_EQ(RunOssa({"train", "--import-pcl", folder_ / "pcl.txt", "--quiet", "--validation",
+                     data(), "--out", joints})
+                .exit_status,
+            0);
+  const CommandResult no_validation = train({joints, "--refinement", data()});
+  EXPECT_EQ(no_validation.exit_status, 2);
+  EXPECT_NE(no_validation.err.find("--validation"), std::string::npos) << no_validation.err;
+  const CommandResult no_prior = train({joints, "--refinement", data(), "--validation", data()});
+  EXPECT_EQ(no_prior.exit_status, 1);
+  EXPECT_NE(no_prior.err.find("joints.ossa: "), std::string::npos) << no_prior.err;
 }
 
 // The messages were "no image shows an object" and none.
