@@ -7,7 +7,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/statistics.h"
-#include "recon/files/point_bodies_internal.h"
+#include "recon/files/origin_points_internal.h"
 #include "recon/files/unlikely_unit_internal.h"
 
 namespace ossa::recon {
@@ -125,26 +125,14 @@ void PutConfidences(const PointBody& body, const std::vector<std::optional<doubl
   }
 }
 
-bool IsAtOrigin(const NamedPoint& point) { return point.place.isZero(0.0); }
-
-/// The labels of joints to which all others are relative: always at the origin, with all other
-/// joints around it. Nobody can be so near to a depth camera.
 std::set<size_t> FindRoots(const JointTable& table, double metres_per_unit) {
-  // Metres, by hand: from hips or neck to the next joint, and to the farthest.
-  constexpr double kNearest_m = 0.3, kFarthest_m = 1.5;
-  std::set<size_t> roots, others;
-  double nearest_m = kFarthest_m, farthest_m = 0.0;
+  OriginPoints origin;
   for (const TableFrame& row : table.frames()) {
     for (const NamedPoint& point : row.seen) {
-      (IsAtOrigin(point) ? roots : others).insert(point.label);
-      if (IsAtOrigin(point)) continue;
-      nearest_m = std::min(nearest_m, point.place.norm() * metres_per_unit);
-      farthest_m = std::max(farthest_m, point.place.norm() * metres_per_unit);
+      origin.Add(point.label, point.place * metres_per_unit);
     }
   }
-  if (nearest_m > kNearest_m || farthest_m > kFarthest_m) return {};
-  std::erase_if(roots, [&](size_t label) { return others.contains(label); });
-  return roots;
+  return origin.FindRoots();
 }
 
 SkeletonFrame MakeTableFrame(const JointTable& table, const TableFrame& row,
@@ -153,8 +141,7 @@ SkeletonFrame MakeTableFrame(const JointTable& table, const TableFrame& row,
   std::vector<SeenPoint> points(table.labels().size());
   std::vector<std::optional<double>> confidences(points.size());
   for (const NamedPoint& one : row.seen) {
-    // Like the Kinect SDK, programs write the origin for joints that were not seen.
-    if (IsAtOrigin(one) && !roots.contains(one.label)) continue;
+    if (one.place.isZero(0.0) && !roots.contains(one.label)) continue;  // not seen
     points[one.label] = one.place;
     confidences[one.label] = one.confidence;
   }

@@ -12,7 +12,7 @@
 #include <map>
 
 #include "recon/files/binary_bytes_internal.h"
-#include "recon/files/point_bodies_internal.h"
+#include "recon/files/origin_points_internal.h"
 
 namespace ossa::recon {
 namespace {
@@ -269,17 +269,39 @@ bool StatesYUp(const C3dBytes& bytes, const Parameters& parameters) {
   return axis == "+Y" || axis == "Y";
 }
 
-// A negative fourth word means that the point was not seen; so do NaN and the origin.
-SeenPoint ReadPoint(const std::string& name, const C3dBytes& bytes, const C3d& c3d, size_t at) {
+// A negative fourth word, the residual, means that the point was not seen; so does NaN. `marks`
+// says whether there was one of either.
+SeenPoint ReadPoint(const std::string& name, const C3dBytes& bytes, const C3d& c3d, size_t at,
+                    bool& marks) {
   std::array<double, 4> v{};
   for (size_t i = 0; i < 4; ++i) {
     v[i] = c3d.floats ? bytes.Real(at + 4 * i) : bytes.Integer(at + 2 * i);
   }
-  if (v[3] < 0 || std::isnan(v[0]) || std::isnan(v[1]) || std::isnan(v[2])) return std::nullopt;
+  if (v[3] < 0 || std::isnan(v[0]) || std::isnan(v[1]) || std::isnan(v[2])) {
+    marks = true;
+    return std::nullopt;
+  }
   const Eigen::Vector3d at_m = c3d.scale * c3d.metres_per_unit * Eigen::Vector3d(v[0], v[2], -v[1]);
   if (!at_m.allFinite()) FailAtByte(name, at, "finite coordinates");
-  if (at_m.isZero(0.0)) return std::nullopt;
   return at_m;
+}
+
+// [frame][point]. Some programs write the origin for points that were not seen, with the residual
+// of a seen one: their files mark none as unseen.
+std::vector<std::vector<SeenPoint>> ReadPoints(const std::string& name, const C3dBytes& bytes,
+                                               const C3d& c3d) {
+  const size_t word = c3d.floats ? 4 : 2;
+  NeedBytes(name, bytes.all(), c3d.data, c3d.frames * c3d.words_per_frame * word, "all frames");
+  std::vector<std::vector<SeenPoint>> rows(c3d.frames);
+  bool marks = false;
+  for (size_t f = 0; f < c3d.frames; ++f) {
+    for (size_t p = 0; p < c3d.labels.size(); ++p) {
+      const size_t at = c3d.data + (f * c3d.words_per_frame + 4 * p) * word;
+      rows[f].push_back(ReadPoint(name, bytes, c3d, at, marks));
+    }
+  }
+  if (!marks) RemoveUnseenAtOrigin(rows);
+  return rows;
 }
 
 SkeletonSequence ReadC3d(SkeletonInput& input) {
@@ -291,19 +313,13 @@ SkeletonSequence ReadC3d(SkeletonInput& input) {
   c3d.rate_Hz = ReadRate_Hz(input.name, bytes, c3d, parameters);
   ReadLabels(input.name, bytes, parameters, c3d);
   ReadUnits(input.name, bytes, parameters, c3d);
-  const size_t word = c3d.floats ? 4 : 2;
-  NeedBytes(input.name, text, c3d.data, c3d.frames * c3d.words_per_frame * word, "all frames");
   SkeletonSequence sequence{input.name, {}};
   const auto bodies =
       FindPointBodies(c3d.labels, input.mapping, {input.name, "POINT:LABELS"}, sequence.warnings);
   const double step_s = 1.0 / c3d.rate_Hz;
-  std::vector<SeenPoint> points(c3d.labels.size());
-  for (size_t f = 0; f < c3d.frames; ++f) {
-    for (size_t p = 0; p < points.size(); ++p) {
-      const size_t at = c3d.data + (f * c3d.words_per_frame + 4 * p) * word;
-      points[p] = ReadPoint(input.name, bytes, c3d, at);
-    }
-    sequence.frames.push_back(MakeFrame(bodies, points, f, static_cast<double>(f) * step_s));
+  const auto rows = ReadPoints(input.name, bytes, c3d);
+  for (size_t f = 0; f < rows.size(); ++f) {
+    sequence.frames.push_back(MakeFrame(bodies, rows[f], f, static_cast<double>(f) * step_s));
   }
   RemoveEmptyBodies(sequence);
   // The file's y axis in the coordinates of ReadPoint.

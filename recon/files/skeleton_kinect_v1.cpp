@@ -1,11 +1,13 @@
 // Text formats with the 20 joints of the Kinect SDK 1: KinectGait, MSR Action3D, UTKinect-Action3D.
-// All are in camera space and metres already; none has tracking states.
+// All are in camera space and metres already; none has tracking states: joints that were not seen
+// are written as the origin.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
 #include "recon/files/joint_names_internal.h"
+#include "recon/files/origin_points_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 
 namespace ossa::recon {
@@ -14,9 +16,6 @@ namespace {
 bool AllNumbers(const std::vector<std::string_view>& words) {
   return std::all_of(words.begin(), words.end(), LooksLikeNumber);
 }
-
-// Unseen joints are written as the origin.
-bool IsSeen(const Eigen::Vector3d& position) { return !position.isZero(0.0); }
 
 // --- KinectGait: `Name;x;y;z`, one joint per line; a frame ends when its first name is repeated.
 
@@ -61,6 +60,7 @@ SkeletonSequence ReadKinectGait(SkeletonInput& input) {
   }
   if (first) finish();
   RequireFrames(sequence);
+  RemoveUnseenAtOrigin(sequence);
   return sequence;
 }
 
@@ -91,18 +91,17 @@ SkeletonSequence ReadMsrAction3D(SkeletonInput& input) {
     for (size_t row = 0; row < kJointCount; ++row) {
       if (row > 0) lines.Expect(fmt::format("line {} of the frame's 20", row + 1));
       const auto numbers = NumbersIn(lines, Words(lines.line()), 4, "x y z confidence");
-      const Eigen::Vector3d position(numbers.data());
       if (numbers[3] < 0 || numbers[3] > 1) {
         lines.Fail("a confidence from 0 to 1 in column 4", lines.line());
       }
-      if (!IsSeen(position)) continue;
-      PutJoint(body, kMsrOrder[row], position);
+      PutJoint(body, kMsrOrder[row], Eigen::Vector3d(numbers.data()));
       body.joints[Index(kMsrOrder[row])]->confidence = numbers[3];
     }
     const size_t index = sequence.frames.size();
     sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));
   }
   RequireFrames(sequence);
+  RemoveUnseenAtOrigin(sequence);
   return sequence;
 }
 
@@ -128,8 +127,7 @@ SkeletonSequence ReadUtKinect(SkeletonInput& input) {
     if (!first) first = numbers[0];
     BodyRecord body;
     for (size_t j = 0; j < kJointCount; ++j) {
-      const Eigen::Vector3d position(&numbers[1 + 3 * j]);
-      if (IsSeen(position)) PutJoint(body, static_cast<Joint>(j), position);
+      PutJoint(body, static_cast<Joint>(j), Eigen::Vector3d(&numbers[1 + 3 * j]));
     }
     const double time_s = (numbers[0] - *first) * step_s;
     if (!sequence.frames.empty() && sequence.frames.back().time_s == time_s) continue;
@@ -139,6 +137,7 @@ SkeletonSequence ReadUtKinect(SkeletonInput& input) {
     sequence.frames.push_back(OneBodyFrame(sequence.frames.size(), time_s, std::move(body)));
   }
   RequireFrames(sequence);
+  RemoveUnseenAtOrigin(sequence);
   return sequence;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 
+#include "recon/files/origin_points_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/orientation.h"
 
@@ -101,7 +102,7 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
     for (size_t j = 0; j < kV2Joints; ++j) {
       const auto joint = JointOfV2(j);
       const Eigen::Vector3d position(&numbers[7 * j]);
-      if (!joint || position.isZero(0.0)) continue;
+      if (!joint) continue;
       PutJoint(body, *joint, position);
       const double* wxyz = &numbers[7 * j + 3];
       PutOrientation(body, *joint, {wxyz[0], wxyz[1], wxyz[2], wxyz[3]});
@@ -110,6 +111,7 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
     sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));
   }
   RequireFrames(sequence);
+  RemoveUnseenAtOrigin(sequence);
   return sequence;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "recon/files/point_bodies_internal.h"
+#include "recon/files/origin_points_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 
 namespace ossa::recon {
@@ -167,29 +167,6 @@ class TrcRows {
 
 using RowPoints = std::vector<std::vector<SeenPoint>>;  // [row][marker]
 
-// Whether a marker that is at the origin in all rows is the root of skeletons relative to it.
-bool IsRoot(const RowPoints& rows, size_t marker) {
-  constexpr double kNear_m = 1.5;  // anthropometry: of all joints of somebody about their hips
-  double farthest_m = 0.0;
-  for (const auto& points : rows) {
-    if (!points[marker] || !points[marker]->isZero(0.0)) return false;
-    for (const SeenPoint& other : points) {
-      if (other) farthest_m = std::max(farthest_m, other->norm());
-    }
-  }
-  return farthest_m < kNear_m;
-}
-
-// Programs write the origin for markers that were not seen, as in C3D.
-void RemoveUnseenAtOrigin(RowPoints& rows, size_t markers) {
-  for (size_t m = 0; m < markers; ++m) {
-    if (IsRoot(rows, m)) continue;
-    for (auto& points : rows) {
-      if (points[m] && points[m]->isZero(0.0)) points[m].reset();
-    }
-  }
-}
-
 // Times of another unit than seconds pass for a recording of another length.
 void WarnOfOtherRate(const TrcHeader& header, SkeletonSequence& sequence) {
   constexpr double kFar = 10.0;  // a ratio, by hand: programs thin out rows and leave the DataRate
@@ -223,7 +200,7 @@ SkeletonSequence ReadTrc(SkeletonInput& input) {
     times.Take(lines, times_s.back());
     points.push_back(rows.ReadPoints());
   }
-  RemoveUnseenAtOrigin(points, header.markers);
+  RemoveUnseenAtOrigin(points);
   for (size_t f = 0; f < points.size(); ++f) {
     sequence.frames.push_back(MakeFrame(bodies, points[f], f, times_s[f]));
   }

@@ -94,11 +94,14 @@ TEST(Trc, TheOriginAndMotionAnalysissNumberAreBlanks) {
 TEST(Trc, APointAtTheOriginInAllRowsIsOneIfTheOthersAreAroundIt) {
   std::string at_origin = ReplacedAll(kTrc, "0.00\t1600.00\t20.00\n", "0.00\t0.00\t0.00\n");
   at_origin = ReplacedAll(at_origin, "0.00\t1600.00\t2.75\n", "0.00\t0.00\t0.00\n");
+  at_origin = ReplacedAll(at_origin, "\t500.25", "\t200.25");
   const auto has_head = [](const SkeletonSequence& read) {
     return read.frames[1].bodies[0].joints[Index(Joint::kHead)].has_value();
   };
   EXPECT_TRUE(has_head(ReadText(at_origin)));
-  EXPECT_FALSE(has_head(ReadText(ReplacedAll(at_origin, "\t500.25", "\t2500.25"))));
+  for (const char* farther : {"\t500.25", "\t2200.25"}) {
+    EXPECT_FALSE(has_head(ReadText(ReplacedAll(at_origin, "\t200.25", farther)))) << farther;
+  }
 }
 
 TEST(Trc, WrongRowCountKeepsTheRowsWithAWarning) {
