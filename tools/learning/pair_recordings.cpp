@@ -9,6 +9,7 @@
 #include "depth/base/error.h"
 #include "recon/methods/recorded_pairs.h"
 #include "tools/experiments/compare/comparison.h"
+#include "tools/experiments/compare/median_offset.h"
 
 namespace ossa::tools {
 namespace {
@@ -76,23 +77,60 @@ void AlignClocks(const std::string& observed_path,
   }
 }
 
-// Of another moment of the truth a correction would learn the movement between. Warns of the first.
-void WarnOfClock(const std::string& observed_path, const std::string& truth_path,
-                 const std::vector<const recon::SkeletonClip*>& truth, Clips& observed) {
-  PairOptions as_they_are;
-  as_they_are.time = TimeAlignment::kNone;
-  for (size_t i = 0; i < observed.size(); ++i) {
-    if (truth[i] == nullptr) continue;
-    recon::SkeletonSequence& sequence = observed[i].sequence;
-    const auto clock = FindClockDifference(PairUp(truth[i]->sequence, sequence, as_they_are));
-    if (!clock) continue;
-    sequence.warnings.push_back(fmt::format(
-        "{}{}{} is far nearer to {} {}: if their clocks differ, align them (--time correlate)",
-        observed_path, observed[i].name.empty() ? "" : "#", observed[i].name, truth_path,
-        Describe(*clock)));
-    return;
+// What to do about an offset that is left.
+std::string DescribeRemedy(const PairOptions& clock, double more_s) {
+  if (clock.time == TimeAlignment::kFixed) {
+    return fmt::format("check --time {:g} (--time {:.3f} adds that, too)", clock.offset_s,
+                       clock.offset_s + more_s);
   }
+  if (clock.time == TimeAlignment::kCorrelate) return "check --max-offset";
+  return "if their clocks differ, align them (--time correlate)";
 }
+
+// Of another moment of the truth a correction would learn the movement between. Warns of the first
+// of a file, and once of a small offset on which recordings agree.
+class ClockWarnings {
+ public:
+  explicit ClockWarnings(const PairOptions& clock) : clock_(clock) {}
+
+  void WarnOf(const std::string& observed_path, const std::string& truth_path,
+              const std::vector<const recon::SkeletonClip*>& truth, Clips& observed) {
+    for (size_t i = 0; i < observed.size(); ++i) {
+      if (truth[i] == nullptr) continue;
+      recon::SkeletonSequence& sequence = observed[i].sequence;
+      const auto pairs = PairUp(truth[i]->sequence, sequence, as_they_are_);
+      if (const auto found = FindClockDifference(pairs)) {
+        sequence.warnings.push_back(fmt::format("{}{}{} is far nearer to {} {}: {}", observed_path,
+                                                observed[i].name.empty() ? "" : "#",
+                                                observed[i].name, truth_path, Describe(*found),
+                                                DescribeRemedy(clock_, found->offset_s)));
+        return;
+      }
+      for (const PairedTracks& pair : pairs) offsets_.Add(pair, clock_.stop);
+    }
+    WarnOfMedian(observed_path, observed);
+  }
+
+ private:
+  // Correlated recordings are aligned as well as can be measured.
+  void WarnOfMedian(const std::string& observed_path, Clips& observed) {
+    if (observed.empty() || has_warned_ || clock_.time == TimeAlignment::kCorrelate) return;
+    const auto found = offsets_.FindEvident();
+    if (!found) return;
+    has_warned_ = true;
+    const double by_s = clock_.time == TimeAlignment::kFixed ? clock_.offset_s : 0.0;
+    observed[0].sequence.warnings.push_back(fmt::format(
+        "{}: the times are {:+.3f} s off the truth's, {:.1f} frames (standard error {:.3f} s, "
+        "median of {} pieces of recordings): if that is no lag of the sensor, which is learned, "
+        "add --time {:.3f}",
+        observed_path, -found->offset_s, std::abs(found->offset_s) / found->frame_s,
+        found->standard_error_s, found->pieces, by_s + found->offset_s));
+  }
+
+  PairOptions clock_, as_they_are_{.time = TimeAlignment::kNone};
+  OffsetOfPieces offsets_;
+  bool has_warned_ = false;
+};
 
 void AddClips(const std::string& observed_path, const Clips& observed,
               const std::vector<const recon::SkeletonClip*>& truth, People& people,
@@ -116,13 +154,14 @@ std::vector<recon::PosturePair> PairRecordings(const std::vector<std::string>& o
   }
   std::vector<recon::PosturePair> pairs;
   People people;
+  ClockWarnings clocks(options.clock);
   for (size_t i = 0; i < observed.size(); ++i) {
     Clips seen = recon::ReadSkeletonClips(observed[i], options.reading);
     const Clips known = recon::ReadSkeletonClips(truth[i], options.reading);
     const auto truth_of = FindTruth(seen, known);
     WarnOfUnpaired(observed[i], truth[i], truth_of, seen);
     AlignClocks(observed[i], truth_of, options, seen);
-    WarnOfClock(observed[i], truth[i], truth_of, seen);
+    clocks.WarnOf(observed[i], truth[i], truth_of, seen);
     if (options.read && !(options.read(seen) && options.read(known))) return pairs;
     const size_t before = pairs.size();
     AddClips(observed[i], seen, truth_of, people, pairs);

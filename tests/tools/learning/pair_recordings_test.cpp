@@ -82,6 +82,47 @@ TEST_F(PairedFolders, AreShiftedByTheSecondsGiven) {
   EXPECT_EQ(CountPairs(), 294u) << "not by number: the last six frames are after the truth's end";
 }
 
+TEST_F(PairedFolders, WarnOfAWrongNumberOfSecondsByNamingTheRightOne) {
+  const std::vector<recon::Posture> walk = recon::test::Seen(1, 300).truth;
+  recon::WriteSkeletons(true_ + "/walk.jsonl", recon::test::SequenceOf(walk));
+  recon::WriteSkeletons(seen_ + "/walk.jsonl", BegunLater(walk, 24));
+  clock_ = {.time = TimeAlignment::kFixed, .offset_s = 0.8};
+  CountPairs();
+  EXPECT_TRUE(said_.empty()) << said_.front();
+  clock_.offset_s = 0.0;
+  CountPairs();
+  ASSERT_EQ(said_.size(), 1u);
+  EXPECT_NE(said_[0].find("check --time 0 (--time 0.80"), std::string::npos) << said_[0];
+  EXPECT_EQ(said_[0].find("align them"), std::string::npos) << said_[0];
+}
+
+TEST_F(PairedFolders, WarnOfRecordingsThatAreAFrameLate) {
+  const std::vector<recon::Posture> walk = recon::test::Seen(1, 900).truth;
+  recon::WriteSkeletons(true_ + "/walk.jsonl", recon::test::SequenceOf(walk));
+  recon::WriteSkeletons(seen_ + "/walk.jsonl", BegunLater(walk, 1));
+  CountPairs();
+  ASSERT_EQ(said_.size(), 1u);
+  EXPECT_NE(said_[0].find("the times are -0.033 s off the truth's, 1.0 frames"), std::string::npos)
+      << said_[0];
+  EXPECT_NE(said_[0].find("add --time 0.033"), std::string::npos) << said_[0];
+  clock_ = {.time = TimeAlignment::kFixed, .offset_s = 0.033};
+  CountPairs();
+  EXPECT_TRUE(said_.empty()) << said_.front();
+}
+
+TEST_F(PairedFolders, DoNotWarnOfPartsOfAFrameOrOfNoise) {
+  std::mt19937_64 rng(7);
+  const std::vector<recon::Posture> walk = recon::test::Seen(1, 900).truth;
+  std::vector<recon::Posture> noisy = walk;
+  for (recon::Posture& posture : noisy) recon::test::AddNoise(posture, 0.02, rng);
+  recon::SkeletonSequence seen = recon::test::SequenceOf(noisy);
+  for (recon::SkeletonFrame& frame : seen.frames) frame.time_s += 0.01;
+  recon::WriteSkeletons(true_ + "/walk.jsonl", recon::test::SequenceOf(walk));
+  recon::WriteSkeletons(seen_ + "/walk.jsonl", seen);
+  CountPairs();
+  EXPECT_TRUE(said_.empty()) << said_.front();
+}
+
 TEST_F(PairedFolders, AreShiftedByTheOffsetThatCorrelatesBest) {
   const std::vector<recon::Posture> walk = recon::test::Seen(1, 300).truth;
   recon::WriteSkeletons(true_ + "/walk.jsonl", recon::test::SequenceOf(walk));
