@@ -49,7 +49,7 @@ struct ClockOptions {
     const bool searches = options.time == tools::TimeAlignment::kAuto ||
                           options.time == tools::TimeAlignment::kCorrelate;
     if (states_max_offset && !searches) {
-      throw UsageError("--max-offset: expected --time auto or correlate with it, found " + time);
+      throw Contradiction("--max-offset: expected --time auto or correlate with it, found " + time);
     }
   }
 };

@@ -76,7 +76,7 @@ void AddExamples(CLI::App& app, std::string_view command) {
 
 }  // namespace
 
-void Parse(CLI::App& app, int argc, char** argv) {
+void Parse(CLI::App& app, int argc, char** argv, const std::set<std::string>& left_out) {
   const std::string command = argv[0];
   app.name("ossa " + command);
   if (argc == 2 && std::string_view(argv[1]) == "--describe") {
@@ -86,7 +86,7 @@ void Parse(CLI::App& app, int argc, char** argv) {
   AddExamples(app, command);
   try {
     app.parse(argc, argv);
-    ApplyDefaults(app, command);
+    ApplyDefaults(app, command, left_out);
     CheckValues(app);
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app.help());

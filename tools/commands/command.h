@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -26,13 +27,19 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Options that exclude each other, or one that needs another.
+struct Contradiction : UsageError {
+  using UsageError::UsageError;
+};
+
 /// Thrown after --help was printed: exit status 0.
 struct HelpShown {};
 
 /// Parses the arguments of a subcommand; missing options are taken from the user's file of
-/// defaults. Throws UsageError, HelpShown (also after `--describe`, see describe.h), or InputError
-/// for that file.
-void Parse(CLI::App& app, int argc, char** argv);
+/// defaults, but those named in `left_out`. Throws UsageError, HelpShown (also after `--describe`,
+/// see describe.h), or InputError for that file. ParseConsistently() is for options that depend on
+/// each other.
+void Parse(CLI::App& app, int argc, char** argv, const std::set<std::string>& left_out = {});
 
 /// Whether Ctrl-C or SIGTERM was received. Long loops check it, stop, and leave no half-written
 /// file.

@@ -10,6 +10,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/parse_consistently.h"
 #include "tools/commands/process.h"
 #include "tools/commands/reading_bar.h"
 #include "tools/commands/skeleton_reading_options.h"
@@ -81,20 +82,23 @@ void AddReadingOptions(CLI::App& app, tools::CompareOptions& options) {
       ->allow_extra_args(false);
 }
 
-CLI::Option* DeclareOptions(CLI::App& app, CompareArguments& a) {
+void DeclareOptions(CLI::App& app, CompareArguments& a) {
   app.add_option("TRUTH", a.truth, "the skeletons to compare with")->required();
   app.add_option("RESULT", a.results, "one or more results")->required();
   AddPairingOptions(app, a);
-  CLI::Option* json =
-      app.add_option("--json", a.json, "write all numbers as JSON to FILE ('-' or none: stdout)")
-          ->expected(0, 1);
+  app.add_option("--json", a.json, "write all numbers as JSON to FILE ('-' or none: stdout)")
+      ->expected(0, 1);
   app.add_option("--report", a.report, "write one self-contained page with plots, FILE.html");
   AddReadingOptions(app, a.options);
   app.add_option("--seed", a.options.seed, "random seed of the bootstrap")->capture_default_str();
   app.add_flag("--quiet", a.quiet, "no tables on stdout");
   AddSkeletonReadingOptions(app, a.options.reading);
   app.footer(Formats() + "\n" + MappingHelp());
-  return json;
+}
+
+void CheckPairing(const CLI::App& app, CompareArguments& a) {
+  a.to_json = app.count("--json") > 0;
+  a.clock.Read(a.options.pairing);
 }
 
 void CheckOutputFiles(const CompareArguments& a) {
@@ -131,12 +135,9 @@ void PrintComparison(const tools::Comparison& comparison, const CompareArguments
 }  // namespace
 
 int Compare(int argc, char** argv) {
-  CLI::App app("Compare skeletons with the truth, or with each other");
-  CompareArguments a;
-  const CLI::Option* json = DeclareOptions(app, a);
-  Parse(app, argc, argv);
-  a.to_json = json->count() > 0;
-  a.clock.Read(a.options.pairing);
+  auto a = ParseConsistently<CompareArguments>(
+      {"Compare skeletons with the truth, or with each other", DeclareOptions, CheckPairing}, argc,
+      argv);
   a.options.pairing.rigid = a.align == "rigid";
   a.options.pairing.found_only = a.joints == "found";
   CheckOutputFiles(a);

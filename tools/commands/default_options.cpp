@@ -171,23 +171,27 @@ std::vector<DefaultValue> ReadDefaults(const fs::path& file) {
   return defaults;
 }
 
-void ApplyDefaults(CLI::App& app, std::string_view command) {
+std::vector<DefaultValue> ListDefaults(std::string_view command) {
   const auto file = DefaultsFile();
-  if (!file) return;
-  const auto defaults = ReadDefaults(*file);
+  if (!file) return {};
+  std::vector<DefaultValue> defaults = ReadDefaults(*file);
+  std::erase_if(defaults, [&](const DefaultValue& value) { return value.command != command; });
+  return defaults;
+}
+
+void ApplyDefaults(CLI::App& app, std::string_view command, const std::set<std::string>& left_out) {
+  const auto defaults = ListDefaults(command);
   for (size_t i = 0; i < defaults.size(); ++i) {
     const DefaultValue& value = defaults[i];
-    if (value.command != command) continue;
-    const std::string place = fmt::format("{}: line {}", file->string(), value.line);
-    const auto is_same = [&](const DefaultValue& other) {
-      return other.command == value.command && other.name == value.name;
-    };
+    const std::string place = fmt::format("{}: line {}", DefaultsFile()->string(), value.line);
+    const auto is_same = [&](const DefaultValue& other) { return other.name == value.name; };
     if (std::any_of(defaults.begin(), defaults.begin() + static_cast<std::ptrdiff_t>(i), is_same)) {
       throw InputError(
           fmt::format("{}: expected each option once, found '{}' again", place, value.name));
     }
     CLI::Option& option = FindOption(app, value, place);
     if (option.count() > 0) continue;  // the command line takes precedence
+    if (left_out.contains(value.name)) continue;
     try {
       SetValue(option, value);
     } catch (const CLI::ParseError& error) {

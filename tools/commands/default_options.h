@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,9 +29,12 @@ std::optional<std::filesystem::path> DefaultsFile();
 /// that names file and line.
 std::vector<DefaultValue> ReadDefaults(const std::filesystem::path& file);
 
+/// The defaults of `command` in the user's file.
+std::vector<DefaultValue> ListDefaults(std::string_view command);
+
 /// Sets the options of `command` that were not on the command line to the defaults of the user's
-/// file. Throws InputError for names that the command does not have and values that it does not
-/// accept.
-void ApplyDefaults(CLI::App& app, std::string_view command);
+/// file, but those named in `left_out`. Throws InputError for names that the command does not have
+/// and values that it does not accept.
+void ApplyDefaults(CLI::App& app, std::string_view command, const std::set<std::string>& left_out);
 
 }  // namespace ossa::commands

@@ -36,13 +36,13 @@ void AddFitOptions(CLI::App& app, FitArguments& arguments) {
 }
 
 void CheckFit(const FitArguments& arguments, const FitNeeds& needs) {
-  if (arguments.is_off()) throw UsageError("--posture fitted: expected --fit on, found off");
+  if (arguments.is_off()) throw Contradiction("--posture fitted: expected --fit on, found off");
   if (needs.files.surface == "none") {
-    throw UsageError(
+    throw Contradiction(
         "--fit on: expected --surface FILE.ossasurface of 'ossa surface' with it, found none");
   }
   if (!HasJointsToFit(needs)) {
-    throw UsageError(
+    throw Contradiction(
         "--fit on: expected --refinement FILE.ossarefine of 'ossa refine' with it, found none");
   }
 }
@@ -53,21 +53,22 @@ void CheckPeople(const FitArguments& arguments, const std::string& save_person,
   const bool has_any = !arguments.people.empty() || !save_person.empty();
   const char* option = arguments.people.empty() ? "--save-person" : "--person";
   if (has_any && arguments.is_off()) {
-    throw UsageError(fmt::format("{}: expected a surface fit, found --fit off", option));
+    throw Contradiction(fmt::format("{}: expected a surface fit, found --fit off", option));
   }
   if (has_any && needs.files.surface == "none") {
-    throw UsageError(fmt::format("{}: expected a body surface, found --surface none", option));
+    throw Contradiction(fmt::format("{}: expected a body surface, found --surface none", option));
   }
   if (has_any && !HasJointsToFit(needs)) {
-    throw UsageError(fmt::format(
+    throw Contradiction(fmt::format(
         "{}: expected refined joints, to which a body is fitted (--method best, or --refinement "
         "FILE.ossarefine of 'ossa refine'), found none",
         option));
   }
   const auto most = static_cast<size_t>(needs.max_users);
   if (arguments.people.size() > most) {
-    throw UsageError(fmt::format("--person: expected at most {} files, as --users says, found {}",
-                                 most, arguments.people.size()));
+    throw Contradiction(
+        fmt::format("--person: expected at most {} files, as --users says, found {}", most,
+                    arguments.people.size()));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/fuse_options.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/parse_consistently.h"
 #include "tools/commands/reading_bar.h"
 #include "tools/commands/skeleton_reading_options.h"
 #include "tools/commands/warnings.h"
@@ -41,7 +42,7 @@ void Declare(CLI::App& app, Arguments& a) {
   app.footer(MappingHelp());
 }
 
-void Check(const Arguments& a) {
+void Check(const CLI::App&, Arguments& a) {
   if (a.recordings.size() < 2) {
     throw UsageError("fuse: expected two or more recordings, found " +
                      std::to_string(a.recordings.size()));
@@ -75,11 +76,8 @@ std::vector<recon::SkeletonSequence> ReadAll(Arguments& a) {
 }  // namespace
 
 int Fuse(int argc, char** argv) {
-  CLI::App app("Fuse skeletons of the same people from several cameras");
-  Arguments a;
-  Declare(app, a);
-  Parse(app, argc, argv);
-  Check(a);
+  Arguments a = ParseConsistently<Arguments>(
+      {"Fuse skeletons of the same people from several cameras", Declare, Check}, argc, argv);
   const auto write = a.write.For(a.out);
   const auto recordings = ReadAll(a);
   const auto fused = FuseRecordings(a.fuse, a.recordings, recordings, a.quiet);

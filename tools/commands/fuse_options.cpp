@@ -60,7 +60,7 @@ void FuseArguments::AddTo(CLI::App& app) {
 
 void FuseArguments::Check(std::span<const std::string> sources) const {
   if (states_max_offset && !File().empty()) {
-    throw UsageError("--max-offset: expected --extrinsics auto with it, found " + File());
+    throw Contradiction("--max-offset: expected --extrinsics auto with it, found " + File());
   }
   for (const std::string& source : sources) {
     if (std::count(sources.begin(), sources.end(), source) == 1) continue;

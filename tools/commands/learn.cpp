@@ -14,6 +14,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/parse_consistently.h"
 #include "tools/commands/process.h"
 #include "tools/commands/reading_bar.h"
 #include "tools/commands/skeleton_reading_options.h"
@@ -85,7 +86,7 @@ void Declare(CLI::App& app, LearnArguments& a) {
   app.footer(MappingHelp());
 }
 
-void Check(const LearnArguments& a) {
+void Check(const CLI::App&, LearnArguments& a) {
   if (a.observed.size() != a.truth.size()) {
     throw UsageError(fmt::format("learn: {} --observed but {} --truth; expected as many",
                                  a.observed.size(), a.truth.size()));
@@ -100,15 +101,13 @@ void Check(const LearnArguments& a) {
   inputs.push_back(a.reading.mapping_file);
   CheckOutputs({a.out}, inputs);
   AtomicFile::CheckWritable(a.out);
+  a.clock.Read(a.pairing);
 }
 
 LearnArguments ParseLearnOptions(int argc, char** argv) {
-  CLI::App app("Learn a sensor's errors from pairs of observed and true skeletons");
-  LearnArguments a;
-  Declare(app, a);
-  Parse(app, argc, argv);
-  Check(a);
-  a.clock.Read(a.pairing);
+  LearnArguments a = ParseConsistently<LearnArguments>(
+      {"Learn a sensor's errors from pairs of observed and true skeletons", Declare, Check}, argc,
+      argv);
   a.pairing.stop = Interrupted;
   a.options.correction.seed = a.options.mixture.seed;
   a.options.correction.stop = a.options.window.stop = Interrupted;

@@ -27,13 +27,13 @@ struct MechanicsOptions {
   /// Throws UsageError if a character is configured without being used, or used and not.
   void Check() const {
     if (stated_off && !scene.empty()) {
-      throw UsageError("--physics off: expected no --scene with it");
+      throw Contradiction("--physics off: expected no --scene with it");
     }
     if (follows() || !(build.motors || build.hinges || build.joint_limits)) return;
     const char* option = build.motors   ? "--control motor"
                          : build.hinges ? "--hinges"
                                         : "--joint-limits";
-    throw UsageError(std::string(option) + ": expected --physics on or --scene with it");
+    throw Contradiction(std::string(option) + ": expected --physics on or --scene with it");
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "recon/methods/reconstructor.h"
 #include "tools/commands/command.h"
@@ -70,37 +71,50 @@ inline void PrintNotRead(const std::string& option, const std::string& method) {
   PrintError(fmt::format("ossa: {} is not read by --method {}\n", option, method));
 }
 
-/// Throws UsageError for a given option that the method does not read, because the result would not
-/// be as requested. For files a line is printed instead, unless `quiet`; the value "none" is always
-/// accepted. Options that the command does not have count as not given.
-inline void CheckRead(const CLI::App& app, const std::string& method, bool quiet) {
-  for (const auto& [name, is_read_by, is_file] : kMethodOptions) {
-    const CLI::Option* option = app.get_option_no_throw(name);
-    if (option == nullptr || option->count() == 0 || is_read_by(method)) continue;
-    if (option->results().front() == "none") continue;
-    if (!is_file) {
-      throw UsageError(
-          fmt::format("{} is not read by --method {}: expected a method that does ({})", name,
-                      method, MethodsThat(is_read_by)));
-    }
-    if (!quiet) PrintNotRead(name, method);
+/// The given options that the method does not read, except with the value "none". Options that the
+/// command does not have count as not given.
+inline std::vector<MethodOption> ListNotRead(const CLI::App& app, const std::string& method) {
+  std::vector<MethodOption> not_read;
+  for (const MethodOption& one : kMethodOptions) {
+    const CLI::Option* option = app.get_option_no_throw(one.name);
+    if (option == nullptr || option->count() == 0 || one.is_read_by(method)) continue;
+    if (option->results().front() != "none") not_read.push_back(one);
+  }
+  return not_read;
+}
+
+/// Throws Contradiction for a given option that the method does not read, because the result would
+/// not be as requested; not for a file.
+inline void CheckRead(const CLI::App& app, const std::string& method) {
+  for (const auto& [name, is_read_by, is_file] : ListNotRead(app, method)) {
+    if (is_file) continue;
+    throw Contradiction(
+        fmt::format("{} is not read by --method {}: expected a method that does ({})", name, method,
+                    MethodsThat(is_read_by)));
   }
 }
 
-/// Throws UsageError for a method that needs a learned model, if --learned is missing.
+inline void PrintFilesNotRead(const CLI::App& app, const std::string& method) {
+  for (const MethodOption& option : ListNotRead(app, method)) {
+    if (option.is_file) PrintNotRead(option.name, method);
+  }
+}
+
+/// Throws Contradiction for a method that needs a learned model, if --learned is missing.
 inline void CheckLearned(const std::string& method, const std::string& learned) {
   const bool is_needed = RequireMethodInfo(method).learned == recon::Reads::kRequired;
   if (!is_needed || (!learned.empty() && learned != "none")) return;
-  throw UsageError(
+  throw Contradiction(
       fmt::format("--method {}: expected --learned FILE.ossagp of 'ossa learn' with it, found {}",
                   method, learned.empty() ? "none" : "--learned none"));
 }
 
-/// Throws UsageError if both sources for completing postures are given.
+/// Throws Contradiction if both sources for completing postures are given.
 inline void CheckOneOf(const std::string& method, const std::string& database,
                        const std::string& prior) {
   if (!ReadsPrior(method) || database.empty() || prior.empty()) return;
-  throw UsageError("--database and --prior: expected one of them, " + method + " completes by one");
+  throw Contradiction("--database and --prior: expected one of them, " + method +
+                      " completes by one");
 }
 
 /// The option --bones: which frames determine a person's bone lengths.
@@ -114,10 +128,10 @@ struct BonesOption {
         ->capture_default_str()
         ->check(CLI::IsMember({"so-far", "recording"}));
   }
-  /// Throws UsageError for a method that does not keep bone lengths.
+  /// Throws Contradiction for a method that does not keep bone lengths.
   void Check(const std::string& method) const {
     if (!of_recording() || KeepsBones(method)) return;
-    throw UsageError(
+    throw Contradiction(
         fmt::format("--bones recording: expected a method that keeps bones ({}), found {}",
                     MethodsThat(KeepsBones), method));
   }

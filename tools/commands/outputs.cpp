@@ -142,17 +142,17 @@ void WriteOptions::AddSurfaceTo(CLI::App& app) {
 void WriteOptions::Check(const std::string& out) const {
   const bool is_glb = LowerCaseExtension(out) == ".glb";
   if (!names.empty() && !is_glb && LowerCaseExtension(out) != ".bvh") {
-    throw UsageError("--bvh-names " + names + ": expected --out FILE.bvh or FILE.glb with it");
+    throw Contradiction("--bvh-names " + names + ": expected --out FILE.bvh or FILE.glb with it");
   }
   if (names == "sdk" && is_glb) {
-    throw UsageError("--bvh-names sdk: expected vrm, cmu or mixamo with --out FILE.glb");
+    throw Contradiction("--bvh-names sdk: expected vrm, cmu or mixamo with --out FILE.glb");
   }
   if (!mesh.empty() && !is_glb && !has_page) {
-    throw UsageError("--mesh " + mesh + ": expected --out FILE.glb with it");
+    throw Contradiction("--mesh " + mesh + ": expected --out FILE.glb with it");
   }
   if (!surface.empty() && is_glb && mesh.empty()) {
-    throw UsageError("--surface " + surface +
-                     ": expected its skin with it, --mesh FILE.ossamesh, or --mesh none");
+    throw Contradiction("--surface " + surface +
+                        ": expected its skin with it, --mesh FILE.ossamesh, or --mesh none");
   }
 }
 

@@ -10,6 +10,7 @@
 #include "recon/methods/reconstruct_sequence.h"
 #include "tools/commands/checks.h"
 #include "tools/commands/command.h"
+#include "tools/commands/parse_consistently.h"
 #include "tools/commands/skeleton_reading_options.h"
 
 namespace ossa::commands {
@@ -84,9 +85,9 @@ void AddDynamicsOptions(CLI::App& app, ReconstructArguments& a) {
 
 void CheckDynamics(const ReconstructArguments& a) {
   if (a.dynamics.empty() && a.mass_kg > 0.0)
-    throw UsageError("--mass: expected --dynamics with it");
+    throw Contradiction("--mass: expected --dynamics with it");
   if (!a.dynamics.empty() && (!a.mechanics.on() || !a.mechanics.scene.empty())) {
-    throw UsageError("--dynamics: expected --physics on with it, and no --scene");
+    throw Contradiction("--dynamics: expected --physics on with it, and no --scene");
   }
 }
 
@@ -112,7 +113,7 @@ void DeclareOptions(CLI::App& app, ReconstructArguments& a) {
 
 void CheckLocalPca(const CLI::App& app, const ReconstructArguments& a) {
   if (a.options.local_pca.solver == "ceres" && app.count("--samples") > 0) {
-    throw UsageError("--samples is not read by --solver ceres: expected --solver stochastic");
+    throw Contradiction("--samples is not read by --solver ceres: expected --solver stochastic");
   }
   double largest = 0.0;
   for (const double weight : a.weights) {
@@ -126,7 +127,7 @@ void CheckLocalPca(const CLI::App& app, const ReconstructArguments& a) {
 }
 
 void CheckArguments(const CLI::App& app, ReconstructArguments& a) {
-  CheckRead(app, a.options.method, a.quiet);
+  CheckRead(app, a.options.method);
   CheckLocalPca(app, a);
   CheckLearned(a.options.method, a.files.learned);
   a.bones.Check(a.options.method);
@@ -136,6 +137,10 @@ void CheckArguments(const CLI::App& app, ReconstructArguments& a) {
   CheckDynamics(a);
   CheckOneOf(a.options.method, a.files.database, a.files.prior);
   CheckOutputs({a.out, a.dynamics}, {a.skeletons, a.read.mapping_file, a.mechanics.scene});
+}
+
+void PrintNotes(const CLI::App& app, const ReconstructArguments& a) {
+  if (!a.quiet) PrintFilesNotRead(app, a.options.method);
 }
 
 void SetLocalPca(ReconstructArguments& a) {
@@ -148,11 +153,10 @@ void SetLocalPca(ReconstructArguments& a) {
 }  // namespace
 
 ReconstructArguments ParseReconstructOptions(int argc, char** argv) {
-  CLI::App app("Make recorded skeletons complete and plausible");
-  ReconstructArguments a;
-  DeclareOptions(app, a);
-  Parse(app, argc, argv);
-  CheckArguments(app, a);
+  auto a =
+      ParseConsistently<ReconstructArguments>({"Make recorded skeletons complete and plausible",
+                                               DeclareOptions, CheckArguments, PrintNotes},
+                                              argc, argv);
   SetLocalPca(a);
   return a;
 }

@@ -14,6 +14,7 @@
 #include "tools/commands/command.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/outputs.h"
+#include "tools/commands/parse_consistently.h"
 #include "tools/commands/warnings.h"
 #include "tools/learning/learn_bone_estimation.h"
 #include "tools/learning/learn_refinement_stage.h"
@@ -69,13 +70,19 @@ void AddLearningOptions(CLI::App& app, tools::RefinementStageOptions& options) {
       ->check(CLI::Range(0, 1024));
 }
 
-void CheckArguments(const CLI::App& app, const RefineArguments& a) {
+void Declare(CLI::App& app, RefineArguments& a) {
+  AddFileOptions(app, a);
+  AddLearningOptions(app, a.options);
+  app.add_flag("--quiet", a.quiet, "no progress");
+}
+
+void CheckArguments(const CLI::App& app, RefineArguments& a) {
   // .ossalook: the former extension.
   if (!HasEnding(a.out, ".ossalook")) CheckNotOtherKind("--out", a.out, ".ossarefine");
   if (a.bones && a.after.empty())
-    throw UsageError("--bones: expected --after FILE.ossarefine, too");
+    throw Contradiction("--bones: expected --after FILE.ossarefine, too");
   if (a.bones && app.count("--shifted") + app.count("--shift") > 0) {
-    throw UsageError("--shifted, --shift: bones are learned from joints where they are put");
+    throw Contradiction("--shifted, --shift: bones are learned from joints where they are put");
   }
   std::vector<std::string> inputs = a.datasets;
   if (!a.model_path.empty()) inputs.push_back(a.model_path);
@@ -136,15 +143,11 @@ uint64_t SetForestChecksum(const RefineArguments& a) {
 }  // namespace
 
 int Refine(int argc, char** argv) {
-  CLI::App app(
-      "Train a stage of the cascade that refines a forest's joints at the depth image, on people "
-      "that the forest was not trained on");
-  RefineArguments a;
-  AddFileOptions(app, a);
-  AddLearningOptions(app, a.options);
-  app.add_flag("--quiet", a.quiet, "no progress");
-  Parse(app, argc, argv);
-  CheckArguments(app, a);
+  auto a = ParseConsistently<RefineArguments>(
+      {"Train a stage of the cascade that refines a forest's joints at the depth image, on people "
+       "that the forest was not trained on",
+       Declare, CheckArguments},
+      argc, argv);
   a.options.after = LoadKnown(a);
   a.options.model_name = ModelPath(a);
   const forest::ForestModel model = forest::ReadForestModel(a.options.model_name);

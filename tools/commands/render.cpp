@@ -20,6 +20,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/mapping_option.h"
 #include "tools/commands/mocap_option.h"
+#include "tools/commands/parse_consistently.h"
 #include "tools/commands/shell_word.h"
 #include "tools/commands/warnings.h"
 #include "tools/synth/motion_terms.h"
@@ -172,7 +173,7 @@ void ParseSize(const std::string& text, int* width, int* height) {
 void CheckSensorSize(const tools::FrameOptions& options) {
   const double larger_px = options.shrink * std::max(options.width, options.height);
   if (larger_px <= depth::kLargestImageSide) return;
-  throw UsageError(
+  throw Contradiction(
       fmt::format("--shrink {}: expected a sensor of at most {} pixels a side, found {}",
                   options.shrink, depth::kLargestImageSide, larger_px));
 }
@@ -187,42 +188,42 @@ std::vector<depth::SensorKind> ParseSensors(const std::string& noise) {
   return sensors;
 }
 
-void CheckTogether(const Arguments& a) {
+void CheckTogether(const CLI::App&, Arguments& a) {
   if (a.sequence && a.poses != "spread") {
-    throw UsageError("--poses " + a.poses + ": a --sequence has the poses of its clip");
+    throw Contradiction("--poses " + a.poses + ": a --sequence has the poses of its clip");
   }
   constexpr std::array<std::string_view, 5> kStaged = {"held-up", "desk", "wheelchair", "crutches",
                                                        "all"};
   const bool staged = std::find(kStaged.begin(), kStaged.end(), a.occluders) != kStaged.end();
   if (a.sequence && staged) {
-    throw UsageError("--occluders " + a.occluders +
-                     ": arms are put to things, not in a --sequence");
+    throw Contradiction("--occluders " + a.occluders +
+                        ": arms are put to things, not in a --sequence");
   }
   if (a.cameras > 1 && !a.sequence) {
-    throw UsageError("--cameras: expected --sequence with it");
+    throw Contradiction("--cameras: expected --sequence with it");
   }
   if (a.cameras > 1 && a.background == "lived-in") {
-    throw UsageError("--background lived-in: is made for one camera: expected room or none");
+    throw Contradiction("--background lived-in: is made for one camera: expected room or none");
   }
   if (a.bodies == "average" && a.clothes != "fitting") {
-    throw UsageError("--clothes " + a.clothes +
-                     ": the average body wears the same always: expected --bodies random or any");
+    throw Contradiction(
+        "--clothes " + a.clothes +
+        ": the average body wears the same always: expected --bodies random or any");
   }
   if (a.camera != "kinect-v1" && a.format != "packed") {
-    throw UsageError("--camera " + a.camera +
-                     ": needs --format packed, where each frame has its camera");
+    throw Contradiction("--camera " + a.camera +
+                        ": needs --format packed, where each frame has its camera");
   }
   if (a.camera == "any" && a.sequence) {
-    throw UsageError("--camera any: draws another for each frame, not for a --sequence");
+    throw Contradiction("--camera any: draws another for each frame, not for a --sequence");
   }
   if (a.camera == "any" && (a.fov > 0.0 || a.shrink != 1.0)) {
-    throw UsageError(
+    throw Contradiction(
         "--camera any: draws field of view and shrinking; leave --fov and --shrink out");
   }
 }
 
 tools::FrameOptions MakeOptions(const Arguments& a) {
-  CheckTogether(a);
   tools::FrameOptions options;
   ParseSize(a.size, &options.width, &options.height);
   options.view = *tools::ViewFromName(a.view);
@@ -335,10 +336,10 @@ void RenderAround(tools::FrameInputs& inputs, const Arguments& a, tools::Ranks& 
 }  // namespace
 
 int Render(int argc, char** argv) {
-  CLI::App app("Render labelled depth images: people of all shapes in motion, part of each pixel");
-  Arguments a;
-  Declare(app, a);
-  Parse(app, argc, argv);
+  const auto a = ParseConsistently<Arguments>(
+      {"Render labelled depth images: people of all shapes in motion, part of each pixel", Declare,
+       CheckTogether},
+      argc, argv);
   const tools::FrameOptions options = MakeOptions(a);
   tools::Ranks ranks;
   recon::MocapOptions mocap_options = a.motion;

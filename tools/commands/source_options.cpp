@@ -35,6 +35,7 @@ void PrintNote(depth::NoteKind kind, const std::string& text, bool quiet,
 }
 
 depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) {
+  CheckDepthScale(arguments);
   depth::SourceOptions options;
   const bool is_file = depth::IsCameraFile(arguments.camera);
   if (is_file) options.camera = depth::ReadCameraFile(arguments.camera);
@@ -45,9 +46,6 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
     options.depth_format = coding.format;
     options.inverted_from = coding.inverted_from;
     if (arguments.depth_scale > 0) options.depth_scale = arguments.depth_scale;
-    if (coding.format == depth::DepthFormat::kDisparity && options.depth_scale) {
-      throw InputError("--depth-scale: expected none with --depth-format disparity");
-    }
   } catch (const InputError& error) {
     throw UsageError(error.what());
   }
@@ -64,6 +62,11 @@ depth::SourceOptions DepthOptions(const SourceArguments& arguments, bool quiet) 
 }
 
 }  // namespace
+
+void CheckDepthScale(const SourceArguments& arguments) {
+  if (arguments.depth_format != "disparity" || !(arguments.depth_scale > 0)) return;
+  throw Contradiction("--depth-scale: expected none with --depth-format disparity");
+}
 
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
   app.add_option(

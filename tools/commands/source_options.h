@@ -40,6 +40,8 @@ tracker::Turn ChooseTurn(const SourceArguments& arguments);
 /// quiet. `options` is called only where there is an alternative.
 void FindCamera(SourceArguments& arguments, const std::function<tracker::TrackerOptions()>& options,
                 bool quiet);
+/// Throws Contradiction for a --depth-scale of a --depth-format that has none.
+void CheckDepthScale(const SourceArguments& arguments);
 /// With --rotate auto, for a recording (`source`, which is not consumed): finds the image rotation
 /// before tracking, and prints it unless upright.
 void FindUpright(tracker::Tracker& tracker, const depth::FrameSource& source,

@@ -10,6 +10,7 @@
 #include "recon/refine/refinement_cascade.h"
 #include "tools/commands/command.h"
 #include "tools/commands/model_options.h"
+#include "tools/commands/parse_consistently.h"
 #include "tools/commands/process.h"
 #include "tools/tracker/shipped.h"
 
@@ -60,13 +61,13 @@ const std::map<std::string, std::string> kOldPostures = {{"looked", "refined"}};
 void RequireRefinement(tracker::ModelFiles& files) {
   const char* const shipped = tracker::FindShippedRefinement(files);
   if (files.refinement == "none" || (files.refinement.empty() && shipped == nullptr)) {
-    throw UsageError(
+    throw Contradiction(
         "--posture refined: expected --refinement FILE.ossarefine of 'ossa refine' with it");
   }
   if (files.refinement.empty()) files.refinement = tracker::ShippedFile(shipped).string();
 }
 
-void CheckRefinementIsRead(const TrackOptions& options) {
+void PrintUnreadRefinement(const TrackOptions& options) {
   const std::string& look = options.files.refinement;
   const bool is_read = RequireMethodInfo(options.tracker.method).refined;
   if (look.empty() || look == "none" || is_read || options.quiet) return;
@@ -89,7 +90,7 @@ void CheckSources(const CLI::App& app, const TrackOptions& options) {
                                            "--save-person", "--json-stats"};
   for (const char* option : several ? of_one : of_several) {
     if (app.count(option) == 0) continue;
-    throw UsageError(
+    throw Contradiction(
         fmt::format("{}: expected {} with it", option, several ? "one source" : "several sources"));
   }
   if (!several) return;
@@ -187,7 +188,7 @@ void PrintUnreadPageOptions(const CLI::App& app, const TrackOptions& options) {
 
 void CheckMethod(const CLI::App& app, const TrackOptions& options) {
   const std::string& method = options.tracker.method;
-  CheckRead(app, method, options.quiet);
+  CheckRead(app, method);
   CheckLearned(method, options.files.learned);
   options.bones.Check(method);
   options.mechanics.Check();
@@ -215,6 +216,28 @@ void CheckFiles(const TrackOptions& options) {
                inputs);
 }
 
+void CheckOptions(const CLI::App& app, TrackOptions& options) {
+  CheckSources(app, options);
+  CheckDepthScale(options.source);
+  CheckHasOutput(options);
+  options.targets = ParseTargets(options.send);
+  CheckMethod(app, options);
+  if (options.posture == "refined") RequireRefinement(options.files);
+  if (options.files.surface != "none") options.write.surface = options.files.surface;
+  options.write.has_page = options.view;
+  CheckFiles(options);
+  if (options.fit.fit == "on" || options.posture == "fitted") {
+    CheckFit(options.fit, GetFitNeeds(options));
+  }
+}
+
+void PrintNotes(const CLI::App& app, const TrackOptions& options) {
+  PrintUnreadPageOptions(app, options);
+  PrintUnreadDeviceOptions(app, options.source, options.quiet);
+  if (!options.quiet) PrintFilesNotRead(app, options.tracker.method);
+  if (options.posture != "refined") PrintUnreadRefinement(options);
+}
+
 // Converts the command's options to the tracker's.
 tracker::TrackerOptions MakeTrackerOptions(const TrackOptions& options) {
   tracker::TrackerOptions made = options.tracker;
@@ -235,27 +258,10 @@ tracker::TrackerOptions MakeTrackerOptions(const TrackOptions& options) {
 }  // namespace
 
 TrackOptions ParseTrackOptions(int argc, char** argv) {
-  CLI::App app("Track the people in any SOURCE and write their skeletons");
-  TrackOptions options;
-  DeclareOptions(app, options);
-  Parse(app, argc, argv);
-  CheckSources(app, options);
-  CheckHasOutput(options);
-  PrintUnreadPageOptions(app, options);
-  PrintUnreadDeviceOptions(app, options.source, options.quiet);
-  options.targets = ParseTargets(options.send);
-  CheckMethod(app, options);
-  if (options.posture == "refined") {
-    RequireRefinement(options.files);
-  } else {
-    CheckRefinementIsRead(options);
-  }
-  if (options.files.surface != "none") options.write.surface = options.files.surface;
-  options.write.has_page = options.view;
-  CheckFiles(options);
-  if (options.fit.fit == "on" || options.posture == "fitted") {
-    CheckFit(options.fit, GetFitNeeds(options));
-  }
+  auto options =
+      ParseConsistently<TrackOptions>({"Track the people in any SOURCE and write their skeletons",
+                                       DeclareOptions, CheckOptions, PrintNotes},
+                                      argc, argv);
   options.tracker = MakeTrackerOptions(options);
   return options;
 }

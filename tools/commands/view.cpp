@@ -22,6 +22,7 @@
 #include "tools/commands/mechanics_options.h"
 #include "tools/commands/method_options.h"
 #include "tools/commands/model_options.h"
+#include "tools/commands/parse_consistently.h"
 #include "tools/commands/process.h"
 #include "tools/commands/reading_bar.h"
 #include "tools/commands/source_options.h"
@@ -288,13 +289,7 @@ void PrintTrackingOptions(const CLI::App& app, const std::string& file) {
   }
 }
 
-}  // namespace
-
-int View(int argc, char** argv) {
-  CLI::App app(
-      "Show a SOURCE being tracked, or a skeleton file given as SOURCE, in browsers: depth, parts "
-      "and skeletons in 3D, a recording with its time line");
-  ViewOptions options;
+void DeclareOptions(CLI::App& app, ViewOptions& options) {
   options.settings.method = recon::kDefaultMethod;
   AddSourceOptions(app, options.source);
   AddPageOptions(app, options.page);
@@ -306,8 +301,11 @@ int View(int argc, char** argv) {
       "--record-to", options.record_to,
       "folder for recordings made with the page's record button (default: the current one)");
   app.add_flag("--once", options.once, "play a recording once at its own speed, and end with it");
-  Parse(app, argc, argv);
-  CheckRead(app, options.settings.method, false);
+}
+
+void CheckOptions(const CLI::App& app, ViewOptions& options) {
+  CheckDepthScale(options.source);
+  CheckRead(app, options.settings.method);
   CheckLearned(options.settings.method, options.files.learned);
   const FitNeeds needs{options.files, options.settings.method, options.mount,
                        options.settings.users};
@@ -317,6 +315,21 @@ int View(int argc, char** argv) {
   if (!options.record_to.empty()) {
     AtomicFile::CheckWritable(std::filesystem::path(options.record_to) / "recording");
   }
+}
+
+void PrintNotes(const CLI::App& app, const ViewOptions& options) {
+  PrintFilesNotRead(app, options.settings.method);
+  if (!IsSource(options.source.name)) PrintTrackingOptions(app, options.source.name);
+}
+
+}  // namespace
+
+int View(int argc, char** argv) {
+  auto options = ParseConsistently<ViewOptions>(
+      {"Show a SOURCE being tracked, or a skeleton file given as SOURCE, in browsers: depth, parts "
+       "and skeletons in 3D, a recording with its time line",
+       DeclareOptions, CheckOptions, PrintNotes},
+      argc, argv);
   options.tracker.turn = ChooseTurn(options.source);
   options.tracker.mount = ParseMount(options.mount);
   if (options.fit.is_off()) options.tracker.fit.reset();
@@ -325,7 +338,6 @@ int View(int argc, char** argv) {
         options.source, [&] { return MakeOptions(options, options.settings); }, false);
     PageTracker(options).Run();
   } else {
-    PrintTrackingOptions(app, options.source.name);
     ShowSkeletons(options);
   }
   return 0;

@@ -217,6 +217,41 @@ class Defaults(unittest.TestCase):
         self.assertEqual(self.track("[track]\nmethod = 'none'\n", "--method", "best")[1], best)
         self.assertEqual(self.track("[view]\nmethod = \"none\"\n")[1], best)
 
+    def test_yield_where_they_contradict_the_command_line(self):
+        scene = self.folder / "scene.toml"
+        scene.write_text("[[object]]\nname = \"ball\"\nshape = \"ball\"\nsize_m = 0.2\n")
+        for config, options in (("physics = \"off\"\n", ("--scene", scene)),
+                                (f"scene = \"{scene}\"\n", ("--physics", "off")),
+                                ("hinges = true\nbones = \"recording\"\n", ("--method", "none")),
+                                ("hinges = true\nphysics = \"on\"\nmesh = \"none\"\n", ("--physics", "off")),
+                                ("posture = \"fitted\"\n", ("--fit", "off")),
+                                ("fit = \"on\"\n", ("--refinement", "none")),
+                                ("mesh = \"none\"\nbvh-names = \"sdk\"\nmax-offset = 1\n", ()),
+                                ("depth-scale = 1000\n", ("--depth-format", "disparity"))):
+            expected, alone = self.track("", *options)
+            result, both = self.track("[track]\n" + config, *options)
+            self.assertEqual(result.returncode, 0, (config, result.stderr))
+            self.assertEqual((both, result.stderr), (alone, expected.stderr), config)
+
+    def test_that_need_each_other_are_used_together(self):
+        both = "[track]\nhinges = true\nphysics = \"on\"\n"
+        self.assertEqual(self.track(both + "mesh = \"none\"\n")[1], self.track("", "--physics", "on", "--hinges")[1])
+
+    def test_yield_with_a_line_that_says_why(self):
+        self.file.write_text("[compare]\nseed = 2\ntime = \"none\"\n")
+        tracks = self.folder / "a.jsonl"
+        run("track", CLIP, "--frames", 1, "--quiet", "--out", tracks)
+        for options, noted in ((("--max-offset", 1), True), (("--time", "none"), False)):
+            result = run("compare", tracks, tracks, *options, OSSA_CONFIG=str(self.file))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            line = f"ossa: {self.file}: line 3: time is not used: --max-offset: expected --time auto or correlate with it"
+            self.assertEqual(line in result.stderr, noted, result.stderr)
+
+    def test_do_not_excuse_a_contradiction_within_the_command_line(self):
+        result, _ = self.track("[track]\nmesh = \"none\"\n", "--hinges")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--hinges: expected --physics on", result.stderr)
+
     def test_are_refused_by_file_name_and_line(self):
         for config, line, named in (("[track]\n\nmetod = \"none\"\n", 3, "found 'metod' (is 'method' meant?)"),
                                     ("[trak]\nmethod = \"none\"\n", 1, "found 'trak'"),
