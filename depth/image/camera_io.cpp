@@ -166,8 +166,18 @@ bool IsCameraFile(const std::filesystem::path& path) {
          (!extension.empty() && std::filesystem::is_regular_file(path, none));
 }
 
+// Arrays of NumPy, which are no text.
+void RefuseArray(const std::filesystem::path& path, const std::string& text) {
+  const std::string extension = LowerCaseExtension(path);
+  if (!text.starts_with("\x93NUMPY") && extension != ".npy" && extension != ".npz") return;
+  throw InputError(path.string() +
+                   ": expected text, found an array of NumPy, which is not read: "
+                   "numpy.savetxt('K.txt', K) writes its matrix as text");
+}
+
 CameraChoice ReadCameraFile(const std::filesystem::path& path) {
   const std::string text = ReadText(path), name = path.string();
+  RefuseArray(path, text);
   if (const auto calibration = FindCalibration(text, name)) return ChoiceOf(*calibration, name);
   if (LowerCaseExtension(path) == ".json") return CameraFromJson(text, name);
   if (const auto camera = ReadKalibrCamera(text, name)) return ChoiceOf(*camera, name);

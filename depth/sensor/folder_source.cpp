@@ -144,10 +144,7 @@ std::vector<fs::path> CameraFilesOfOthers(const fs::path& folder) {
 
 // A matrix without a size may be for larger images, such as the colour camera's.
 void CheckCentre(const Camera& camera, const fs::path& file) {
-  constexpr double kFarthest = 0.25;  // share of the size; by hand: cropping moves it by a tenth
-  const bool is_near = std::abs(camera.cx / camera.width - 0.5) < kFarthest &&
-                       std::abs(camera.cy / camera.height - 0.5) < kFarthest;
-  if (is_near) return;
+  if (IsCentreNear(camera)) return;
   throw InputError(file.string() + ": its centre is not that of images of " +
                    std::to_string(camera.width) + "x" + std::to_string(camera.height));
 }
@@ -224,8 +221,28 @@ std::unique_ptr<FrameSource> OpenStill(const fs::path& png, const SourceOptions&
              : OpenFrames(OneFrame(png), folder, options);
 }
 
+bool IsCentreNear(const Camera& camera) {
+  constexpr double kFarthest = 0.25;  // share of the size; by hand: cropping moves it by a tenth
+  return std::abs(camera.cx / camera.width - 0.5) < kFarthest &&
+         std::abs(camera.cy / camera.height - 0.5) < kFarthest;
+}
+
 bool IsDataSet(const fs::path& folder) {
   return fs::is_regular_file(folder / "manifest.json") && fs::is_directory(folder / "depth");
+}
+
+bool HoldsDepthFolder(const fs::path& folder) {
+  std::error_code none;
+  const fs::path depth = folder / "depth";
+  if (!fs::is_directory(depth, none)) return false;
+  for (fs::directory_iterator it(folder, none), end; !none && it != end; it.increment(none)) {
+    if (IsPngName(it->path())) return false;
+  }
+  const std::vector<fs::path> files = CameraFilesOfOthers(depth);
+  const fs::path inside = files.front().parent_path();
+  return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
+    return file.parent_path() != inside && fs::is_regular_file(file, none);
+  });
 }
 
 std::unique_ptr<FrameSource> OpenDataSet(const fs::path& folder, const SourceOptions& options) {

@@ -124,7 +124,7 @@ bool IsRecording(const std::filesystem::path& path) {
   const bool has_depth = std::any_of(begin(entries), end(entries), [](const auto& entry) {
     return IsPngName(entry.path()) || entry.path().filename() == "depth.txt";
   });
-  return has_depth || HoldsOnlyForeignImages(path);
+  return has_depth || HoldsDepthFolder(path) || HoldsOnlyForeignImages(path);
 }
 
 void SourceOptions::Check() const {
@@ -175,6 +175,15 @@ void WarnOfFieldOfView(const std::string& source, const Camera& camera,
                                        ": are its intrinsics in pixels, and of these images?");
 }
 
+// A camera chosen for larger images, such as a colour camera's, puts everybody beside the view. One
+// with an image size is scaled instead.
+void WarnOfCentre(const std::string& source, const Camera& camera, const SourceOptions& options) {
+  if (!options.note || !options.camera || IsCentreNear(camera)) return;
+  options.note(NoteKind::kWarning, source + ": the centre of the camera, " + ShortText(camera.cx) +
+                                       "," + ShortText(camera.cy) + ", is not that of images of " +
+                                       SizeText(camera) + ": are they cropped?");
+}
+
 std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceOptions& options) {
   if (source.starts_with(kDevicePrefix)) {
     // OpenNI2 treats a file as a device and plays it repeatedly, with wrong times.
@@ -186,9 +195,11 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
   const std::filesystem::path path(source);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    return Prepared(source,
-                    IsDataSet(path) ? OpenDataSet(path, options) : OpenFolder(path, options),
-                    UnitStated::kNo, options);
+    if (IsDataSet(path)) {
+      return Prepared(source, OpenDataSet(path, options), UnitStated::kNo, options);
+    }
+    const std::filesystem::path folder = HoldsDepthFolder(path) ? path / "depth" : path;
+    return Prepared(source, OpenFolder(folder, options), UnitStated::kNo, options);
   }
   if (IsOniName(path)) {
     return Prepared(source, OpenOniFile(path, options), UnitStated::kYes, options);
@@ -219,6 +230,7 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& source, const SourceO
   auto opened = OpenByName(source, options);
   ReportCamera(source, opened->camera(), options);
   WarnOfFieldOfView(source, opened->camera(), options);
+  WarnOfCentre(source, opened->camera(), options);
   return options.mirrored ? UnmirroredSource(std::move(opened)) : std::move(opened);
 }
 

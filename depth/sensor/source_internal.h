@@ -19,10 +19,17 @@ std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
 std::unique_ptr<FrameSource> OpenStill(const std::filesystem::path& png,
                                        const SourceOptions& options);
 
+/// Whether the principal point is as near to the middle of the images as that of depth cameras.
+bool IsCentreNear(const Camera& camera);
+
 /// A data set: manifest.json, depth/ and more (docs/architecture.md, "Data set").
 bool IsDataSet(const std::filesystem::path& folder);
 std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,
                                          const SourceOptions& options);
+
+/// Whether the images of this folder are in its folder `depth`, as in a scan of ScanNet or a
+/// recording of Open3D: the camera of that folder is here or in `intrinsic`, and there is no PNG.
+bool HoldsDepthFolder(const std::filesystem::path& folder);
 
 /// An .oni recording, played by OpenNI2 in a child process: if a file makes the library crash or
 /// hang, that is an InputError, at opening or at the frame where it happens.

@@ -38,6 +38,15 @@ TEST(CameraJson, PipeIsRefused) {
   close(both_ends);
 }
 
+TEST(CameraFiles, ArrayOfNumpyIsRefusedWithTheWayToWriteText) {
+  const TemporaryFolder folder;
+  for (const char* name : {"K.npy", "K.npz", "K.txt"}) {
+    std::ofstream(folder / name) << "\x93NUMPY" << std::string(100, '\0');
+    test::ExpectRefused([&] { ReadCameraFile(folder / name); },
+                        std::string(name) + ": expected text, found an array of NumPy");
+  }
+}
+
 class BadCameraJson : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
 TEST_P(BadCameraJson, IsRefusedWithTheFieldsName) {

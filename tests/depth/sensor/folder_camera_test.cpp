@@ -130,6 +130,40 @@ TEST(FolderSource, ReadsACameraMatrixIfItsCentreFitsTheImage) {
   EXPECT_EQ(source->camera(), (Camera{640, 480, 577.5, 578.0, 319.0, 240.0}));
 }
 
+// Folder layout of ScanNet's exporter, beside it the colours.
+TEST(FolderSource, OpensTheDepthFolderOfAScan) {
+  const TemporaryFolder folder;
+  for (const char* name : {"depth", "color", "intrinsic"}) {
+    std::filesystem::create_directory(folder / name);
+  }
+  WriteFrame(folder / "depth/0.png", 7, 640, 480);
+  EXPECT_FALSE(IsRecording(folder.path()));
+  EXPECT_THROW(OpenSource(folder.path().string()), InputError) << "the camera is not known";
+  std::ofstream(folder / "intrinsic/intrinsic_depth.txt")
+      << "577.5 0 319 0\n0 578 240 0\n0 0 1 0\n0 0 0 1\n";
+  EXPECT_TRUE(IsRecording(folder.path()));
+  const auto source = OpenSource(folder.path().string());
+  EXPECT_EQ(source->camera(), (Camera{640, 480, 577.5, 578.0, 319.0, 240.0}));
+  EXPECT_EQ(Next(*source).frame.depth_mm.front(), 7);
+  WriteFrame(folder / "0.png", 9, 640, 480);
+  EXPECT_EQ(Next(*OpenSource(folder.path().string())).frame.depth_mm.front(), 9)
+      << "images of its own";
+}
+
+TEST(FolderSource, WarnsOfAChosenCameraWhoseCentreIsAnothers) {
+  const TemporaryFolder folder;
+  WriteFrame(folder / "0.png", 1, 320, 240);
+  Notes notes;
+  SourceOptions options = notes.Options();
+  options.camera = ParseCamera("290,290,158,125");
+  OpenSource(folder.path().string(), options);
+  EXPECT_FALSE(notes.Tell("the centre of the camera")) << notes.text;
+  options.camera = ParseCamera("577,577,319,240");
+  OpenSource(folder.path().string(), options);
+  EXPECT_TRUE(notes.Tell("the centre of the camera, 319,240, is not that of images of 320x240"))
+      << notes.text;
+}
+
 TEST(FolderSource, ReadsARosCalibrationAndNotesItsDistortion) {
   const TemporaryFolder folder;
   WriteFrame(folder / "0.png", 1, 640, 480);
