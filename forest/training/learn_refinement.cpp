@@ -23,8 +23,6 @@ constexpr float kWindow_m = 0.07F;  // errors of this size count as 0.6 of a hit
 constexpr float kPull = 0.1F;       // of distant positions relative to hits; weight
 constexpr float kSoft_m = 0.02F;    // smaller errors have smaller gradients
 constexpr float kConfidenceShare = 0.5F;  // share
-constexpr float kDropped =
-    0.3F;  // share of hidden units; with 0.1 rendered people gain, real ones lose
 
 // Training examples, one image per row. Input: image × JointFeatureCount; wanted: image × target ·
 // 3, offsets in refinement steps, NaN: unknown.
@@ -117,7 +115,7 @@ ForestModel LearnRefinement(const ForestModel& model, const TrainingSource& sour
   network.hidden = {options.hidden};
   network.outputs = 4 * static_cast<Eigen::Index>(model.targets().size());
   network.epochs = options.epochs;
-  network.dropped = kDropped;
+  network.dropped = options.dropped;
   network.least_deviation = 1e-4;  // units of the inputs; by hand: small shares are informative
   network.clip_inputs = true;
   network.seed = options.seed;

@@ -114,8 +114,9 @@ ForestModel LearnProposals(const ForestModel& model, const TrainingSource& valid
                            size_t max_images, int threads);
 
 struct RefinementOptions {
-  int hidden = 1024;  // units of the hidden layer, 1..1024
-  int epochs = 8;     // passes over the images; half a million images ask for no more
+  int hidden = 512;      // units of the hidden layer, 1..1024
+  int epochs = 5;        // passes over the images
+  float dropped = 0.1F;  // dropout, share of hidden units: 0 up to but not including 1
   uint64_t seed = 1;
   int threads = 0;                                 // 0: all; they do not change the model
   std::function<void(int64_t, int64_t)> progress;  // steps done, steps in all

@@ -83,7 +83,7 @@ void DeclareScene(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--view", a.view,
                  "camera view: front (people face it within 60 degrees, 1.6 to 4 m away), any "
-                 "(every side, height, distance and crop), near (0.75 to 1.75 m away, cropped) or "
+                 "(every side, height, distance and crop), near (0.75 to 1.7 m away, cropped) or "
                  "ceiling (2.2 to 4 m above the floor)")
       ->check(CLI::IsMember({"front", "any", "near", "ceiling"}))
       ->capture_default_str();

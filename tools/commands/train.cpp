@@ -73,10 +73,9 @@ forest::ForestModel Refined(const TrainArguments& a, const forest::ForestModel& 
   const tools::PersonSource fresh(a.refinement, {kForLabels, 100}, tools::Extent::kWholeImage);
   const tools::PersonSource fresher(a.refinement, {0, kForLabels}, tools::Extent::kWholeImage);
   Progress bar("refinement", a.quiet);
-  forest::RefinementOptions options;
+  forest::RefinementOptions options = a.second_stage;
   options.seed = a.options.seed;
   options.threads = a.options.threads;
-  options.epochs = a.refinement_epochs;
   options.stop = Interrupted;
   options.progress = [&](int64_t done, int64_t total) {
     bar.Update(static_cast<double>(done), static_cast<double>(total));

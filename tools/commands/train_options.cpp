@@ -99,11 +99,6 @@ void AddDataOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
   app->add_option("--refinement", a->refinement,
                   "data sets of training subjects that no tree has seen: the second stage, which "
                   "corrects joint positions, is trained on them");
-  app->add_option("--refinement-epochs", a->refinement_epochs,
-                  "passes of the second stage over its images, each also mirrored: more for few "
-                  "images")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
   app->add_option("--memory", words->memory, "memory for images; larger data are streamed in parts")
       ->capture_default_str();
   app->add_option("--max-megabytes", words->max_megabytes,
@@ -112,6 +107,21 @@ void AddDataOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
       ->check(CLI::Range(0.0, kMostMegabytes));
   app->add_option("--terms", a->terms, "terms of the data, for the model's card; repeat for more")
       ->allow_extra_args(false);
+}
+
+void AddSecondStageOptions(CLI::App* app, forest::RefinementOptions* options) {
+  forest::RefinementOptions& o = *options;
+  app->add_option("--refinement-units", o.hidden, "hidden units of the second stage")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+  app->add_option("--refinement-epochs", o.epochs,
+                  "passes of the second stage over its images, each also mirrored")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  app->add_option("--refinement-dropout", o.dropped,
+                  "share of hidden units left out in each step: more for images unlike reality")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 0.9));
 }
 
 void AddRunOptions(CLI::App* app, TrainArguments* a) {
@@ -141,6 +151,7 @@ void AddOptions(CLI::App* app, TrainArguments* a, TrainWords* words) {
   AddForestOptions(app, &a->options);
   AddNodeOptions(app, &a->options);
   AddDataOptions(app, a, words);
+  AddSecondStageOptions(app, &a->second_stage);
   AddRunOptions(app, a);
 }
 
@@ -159,7 +170,12 @@ void CheckGoTogether(const CLI::App& app) {
       "--trees",         "--depth",         "--candidates", "--thresholds",  "--pixels",
       "--refill-pixels", "--box",           "--offsets",    "--node-pixels", "--min-node-pixels",
       "--min-gain",      "--context-share", "--vote-depth", "--memory"};
-  constexpr std::array kOfData = {"DATASET", "--refinement", "--refinement-epochs", "--terms"};
+  constexpr std::array kOfData = {"DATASET",
+                                  "--refinement",
+                                  "--refinement-units",
+                                  "--refinement-epochs",
+                                  "--refinement-dropout",
+                                  "--terms"};
   const auto refuse = [&app](auto options, const char* with) {
     for (const char* option : options) {
       if (app.count(option) == 0 || app.count(with) == 0) continue;

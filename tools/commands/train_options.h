@@ -22,7 +22,7 @@ struct TrainArguments {
   std::optional<uint64_t> max_bytes;  // of the model's file
   std::vector<std::string> terms;
   size_t validation_images = 800;
-  int refinement_epochs = forest::RefinementOptions().epochs;
+  forest::RefinementOptions second_stage;
   bool quiet = false;
   forest::TrainOptions options;
 

@@ -9,8 +9,9 @@
 namespace ossa::tools {
 
 /// `ossa render --view`. Front: facing the camera within 60°, the whole body mostly in view, at
-/// 1.5-4 m; near: at 0.7-1.7 m, cropped by the image; any: every side, height, distance and crop;
-/// ceiling: a camera 2.2 to 4 m above the floor that looks down.
+/// 1.6-4 m; near: at 0.75-1.7 m, cropped by the image; any: every side, height and crop, at
+/// 0.8-5 m. Distances are on the floor, from the person's vertical axis. Ceiling: a camera 2.2 to 4
+/// m above the floor that looks down.
 enum class View { kFront, kNear, kAny, kCeiling };
 std::optional<View> ViewFromName(std::string_view name);
 std::string_view NameOf(View view);

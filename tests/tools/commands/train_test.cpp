@@ -295,7 +295,7 @@ TEST_F(BadDataSet, CardKeepsTheDataOfAKeptRelabelling) {
   const std::string refined = train(
       {"train", fresh, "--trees", "1", "--depth", "3", "--pixels", "50", "--refinement", fresh},
       model());
-  EXPECT_NE(refined.find("1024 units, joint-conditioned"), std::string::npos) << refined;
+  EXPECT_NE(refined.find("512 units, joint-conditioned"), std::string::npos) << refined;
   const std::string kept = train({"train", fresh, "--trees-of", model()}, again);
   EXPECT_NE(kept.find("no second stage, joint-conditioned"), std::string::npos) << kept;
   EXPECT_NE(kept.find("\"refinement_data\""), std::string::npos) << kept;
@@ -304,8 +304,17 @@ TEST_F(BadDataSet, CardKeepsTheDataOfAKeptRelabelling) {
 // Its examples are the same ones, and trees, pose prior and proposals are kept.
 TEST_F(BadDataSet, SecondStageAloneIsThatOfTheWholeTraining) {
   const std::string fresh = RenderEnoughForASecondStage(), again = folder_ / "again.ossa";
-  const std::vector<std::string> second = {"--refinement",        fresh, "--validation", fresh,
-                                           "--refinement-epochs", "2",   "--quiet"};
+  const std::vector<std::string> second = {"--refinement",
+                                           fresh,
+                                           "--validation",
+                                           fresh,
+                                           "--refinement-units",
+                                           "32",
+                                           "--refinement-epochs",
+                                           "2",
+                                           "--refinement-dropout",
+                                           "0.3",
+                                           "--quiet"};
   const auto train = [&](std::vector<std::string> words) {
     words.insert(words.end(), second.begin(), second.end());
     const CommandResult result = RunOssa(words);
