@@ -108,6 +108,23 @@ TEST_F(PoseNetworkCommands, CropsContainThePersonAndTheirJoints) {
   EXPECT_GT(on_surface, 9 * heads / 10);
 }
 
+TEST_F(PoseNetworkCommands, CropsAreTheSameBytesForAnyNumberOfThreads) {
+  const std::string any = Crops(12);
+  for (const char* threads : {"1", "3"}) {
+    const std::string crops = folder_ / threads;
+    const auto run =
+        RunOssa({"crop", folder_ / "data", "--out", crops, "--threads", threads, "--quiet"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(any)) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_TRUE(TextOf(crops + "/" + name) == TextOf(entry.path())) << name;
+      ++files;
+    }
+    EXPECT_GE(files, 3U);
+  }
+}
+
 TEST_F(PoseNetworkCommands, PackedNetworkGivesTheOutputsOfTheTrainer) {
   if (!HasTorch()) GTEST_SKIP() << "no PyTorch: python3-torch";
   const std::string crops = Crops(120), weights = folder_ / "w.npy", kept = folder_ / "w.pt";

@@ -34,6 +34,22 @@ TEST(PriorCommand, LearnsTheRequestedNumberOfModesAndInfoShowsIt) {
   EXPECT_NE(info.out.find(", 8 units "), std::string::npos) << info.out;
 }
 
+TEST(PriorCommand, WritesTheSameBytesForAnyNumberOfThreads) {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> bytes;
+  for (const char* threads : {"1", "3"}) {
+    const std::string out = folder / (std::string(threads) + ".ossaprior");
+    const auto run =
+        RunOssa({"prior", "--mocap", "authored", "--modes", "12", "--hidden", "8", "--walks", "1",
+                 "--epochs", "1", "--threads", threads, "--quiet", "--out", out});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    std::ifstream file(out, std::ios::binary);
+    bytes.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  EXPECT_GT(bytes.at(0).size(), 1000U);
+  EXPECT_TRUE(bytes.at(0) == bytes.at(1));
+}
+
 // Authored frames on the floor were weighted as captured ones. Where all frames are authored, the
 // weight has no effect; 0.5, a power of two, is exact.
 TEST(PriorCommand, AuthoredWeightAppliesToFloorMotionToo) {
