@@ -25,6 +25,8 @@ constexpr double kSelfDamping_ns_m = 60.0;
 /// Gaps below this count as contacts: control can close them within a substep (250 m/s^2 x h^2).
 constexpr double kSlop_m = 0.003;
 constexpr double kTouching_m = 0.0005;
+/// What approaches more slowly comes to rest.
+constexpr double kLeastBounce_m_s = 0.2;
 
 Vector3d VelocityAt(dBodyID body, const dReal* point) {
   if (body == nullptr) return Vector3d::Zero();
@@ -119,21 +121,25 @@ void World::Impl::CollidePair(dGeomID a, dGeomID b) {
 }
 
 /// Limb geoms include a margin. Within it a contact limits the approach to the remaining gap per
-/// substep, so that a fast ball is stopped before it is inside the limb.
+/// substep, so that a fast ball is stopped before it is inside the limb. What bounces in this
+/// substep leaves with its speed of restitution: the contact is hard then, for a soft one takes a
+/// part of it that grows with the mass.
 void World::Impl::Touch(dGeomID a, dGeomID b, dContact c, const Surface& surface, double depth_m) {
-  const double closing = Approach(a, b, c) * step_s;
+  const double speed_m_s = Approach(a, b, c), closing = speed_m_s * step_s;
   if (depth_m < 0.0 && depth_m + closing + kSlop_m < 0.0) return;
   if (depth_m + closing > -kTouching_m && !surface.self) Note(a, b, std::max(depth_m, 0.0));
   c.geom.depth = std::max(depth_m, 0.0);
-  c.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM | dContactMotionN;
-  c.surface.motionN = std::min(depth_m, 0.0) / step_s;
+  c.surface.mode = dContactApprox1 | dContactSoftERP;
   c.surface.mu = surface.friction;
   c.surface.soft_erp = surface.soft.erp;
-  c.surface.soft_cfm = surface.soft.cfm;
-  if (surface.bounce > 0.0) {
+  if (surface.bounce > 0.0 && speed_m_s > kLeastBounce_m_s && depth_m + closing >= 0.0) {
     c.surface.mode |= dContactBounce;
     c.surface.bounce = surface.bounce;
-    c.surface.bounce_vel = 0.2;
+    c.surface.bounce_vel = kLeastBounce_m_s;
+  } else {
+    c.surface.mode |= dContactSoftCFM | dContactMotionN;
+    c.surface.soft_cfm = surface.soft.cfm;
+    c.surface.motionN = std::min(depth_m, 0.0) / step_s;
   }
   Join(a, b, c, depth_m);
 }
