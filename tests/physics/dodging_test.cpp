@@ -61,6 +61,30 @@ TEST(Lean, ExpectsObjectsToFall) {
   EXPECT_LT(ReactTo({0.0, -0.45, 2.7}, {0.0, 0.5, -6.0}).farthest_m.norm(), 0.05);
 }
 
+/// Whether a weightless person who moves at this velocity dodges a ball at rest 1 m ahead of them.
+bool DodgesARestingBall(const Eigen::Vector3d& velocity_m_s) {
+  WorldOptions weightless;
+  weightless.gravity_m_s2 = 0.0;
+  World world(weightless);
+  CharacterOptions options;
+  options.dodge = true;
+  const int person = world.AddCharacter(test::Lengths(), test::StandingPerson(), options);
+  world.StopControl(person);
+  world.SetVelocity(person, velocity_m_s);
+  ObjectOptions ball;
+  ball.shape = Shape::kBall;
+  ball.position_m = test::StandingPerson()[recon::Joint::kHead] + Eigen::Vector3d(0.0, 0.0, 1.0);
+  world.AddObject(ball);
+  world.Step(test::kFrame_s);
+  return world.StateOf(person).dodging;
+}
+
+TEST(Dodging, AlsoOfWhatAMovingHeadRunsInto) {
+  EXPECT_TRUE(DodgesARestingBall({0.0, 0.0, 3.0}));
+  EXPECT_FALSE(DodgesARestingBall({0.0, 0.0, -3.0}));
+  EXPECT_FALSE(DodgesARestingBall(Eigen::Vector3d::Zero()));
+}
+
 TEST(Dodging, IgnoresObjectsFlyingAway) {
   EXPECT_FALSE(ReactTo({0.0, 0.0, 0.6}, {0.0, kLob_m_s, 6.0}).dodged);
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "recon/database/nearest.h"
 #include "recon/methods/bone_turns_internal.h"
 #include "recon/methods/posture_space_internal.h"
+#include "recon/methods/prepared_posture_internal.h"
 #include "recon/methods/reconstructor.h"
 #include "recon/orientation.h"
 #include "recon/reliability.h"
@@ -133,6 +135,42 @@ TEST(Shum2013, IsSectionsFiveAndSixWrittenOut) {
       }
     }
   }
+}
+
+/// A database of the gestures, and of one more posture as the method would add it.
+std::shared_ptr<const PostureDatabase> GesturesAnd(const TrackedPosture& seen) {
+  auto database =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  const Posture normalised = Person().Prepare({seen, 0.0, nullptr}).normalised;
+  const Posture standard = Retargeted(normalised, database->bone_lengths_m());
+  database->Add(ToVector(standard), ComputeOrientations(standard), "observed");
+  return database;
+}
+
+// A posture that is seen again is not added again: a database that had it from the start gives the
+// same. Copies of it would take the places of other neighbours.
+TEST(Shum2013, AddsAPostureOnce) {
+  Posture bowed = test::InFrontOfCamera(test::Motion(0.0));
+  bowed[Joint::kHead] -= Eigen::Vector3d(0.0, 0.15, 0.15);
+  const TrackedPosture seen = test::AllTracked(bowed);
+  ReconstructorOptions options;
+  options.method = "shum-2013";
+  options.local_pca.extend_database = true;
+  options.database = GesturesAnd(seen);
+  const auto knows = MakeReconstructor(options);
+  options.database =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  const auto learns = MakeReconstructor(options);
+  options.local_pca.extend_database = false;
+  const auto neither = MakeReconstructor(options);
+  double unlike_m = 0.0;
+  for (int f = 0; f < 20; ++f) {
+    const Posture one = knows->Step({seen, f / 30.0, nullptr}).posture;
+    const Posture two = learns->Step({seen, f / 30.0, nullptr}).posture;
+    unlike_m += test::MeanDistance_m(two, neither->Step({seen, f / 30.0, nullptr}).posture);
+    for (size_t i = 0; i < kJointCount; ++i) ASSERT_EQ(one.position_m[i], two.position_m[i]) << f;
+  }
+  EXPECT_GT(unlike_m, 0.0) << "it is added";
 }
 
 /// The method, which adds unexpected postures to its database or not.

@@ -197,6 +197,42 @@ TEST(KMeans, SeparatesDistantClusters) {
   EXPECT_NE(region[0], region[2]);
 }
 
+/// One round of Lloyd 1982, by brute force: every row joins the nearest mean of the regions so far.
+std::vector<int> NextRound(const Eigen::MatrixXd& x, const std::vector<int>& region, int regions) {
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(regions, x.cols());
+  std::vector<int> members(static_cast<size_t>(regions), 0);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    mean.row(region[static_cast<size_t>(i)]) += x.row(i);
+    ++members[static_cast<size_t>(region[static_cast<size_t>(i)])];
+  }
+  for (int c = 0; c < regions; ++c) mean.row(c) /= members[static_cast<size_t>(c)];
+  std::vector<int> next;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    Eigen::Index best = 0;
+    (mean.rowwise() - x.row(i)).rowwise().squaredNorm().minCoeff(&best);
+    next.push_back(static_cast<int>(best));
+  }
+  return next;
+}
+
+// Evenly spread rows: borders still move after dozens of rounds.
+TEST(KMeans, RunsFifteenRoundsOfLloydUnlessToldOtherwise) {
+  constexpr int kRegions = 7;
+  Eigen::MatrixXd x(400, 1);
+  for (int i = 0; i < 400; ++i) x(i, 0) = 0.01 * i * i;
+  EXPECT_EQ(KMeans(x, kRegions, 3, 0), std::vector<int>(400, 0)) << "no round";
+  std::vector<int> region = KMeans(x, kRegions, 3, 1);
+  for (int round = 2; round <= 16; ++round) {
+    const std::vector<int> next = NextRound(x, region, kRegions);
+    ASSERT_NE(next, region) << "settled before round " << round;
+    ASSERT_EQ(KMeans(x, kRegions, 3, round), next) << round;
+    if (round == 15) {
+      EXPECT_EQ(KMeans(x, kRegions, 3), next);
+    }
+    region = next;
+  }
+}
+
 /// A model of one sample at the origin, of other parameters than the default ones.
 LocalMixture MixtureAtTheOrigin() {
   const GaussianProcessParameters p{2e-3, 5e-4, 30.0, 5e3};
