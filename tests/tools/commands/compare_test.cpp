@@ -116,9 +116,9 @@ TEST_F(CompareCommand, WarnsWhenAResultIsMirrored) {
 }
 
 // A moving person from `begin_s` of the motion on, in a file whose times begin at 0.
-recon::SkeletonSequence SwingingFrom(double begin_s) {
+recon::SkeletonSequence SwingingFrom(double begin_s, int frames = 300) {
   recon::SkeletonSequence sequence;
-  for (int f = 0; f < 300; ++f) {
+  for (int f = 0; f < frames; ++f) {
     recon::SkeletonFrame& frame = sequence.frames.emplace_back();
     frame.frame = f;
     frame.time_s = f / 30.0;
@@ -130,6 +130,23 @@ recon::SkeletonSequence SwingingFrom(double begin_s) {
     }
   }
   return sequence;
+}
+
+// In half a minute of movement a single frame shows.
+TEST_F(CompareCommand, StatesALagOfAFrameWithItsStandardError) {
+  const std::string truth = folder_ / "long.jsonl", late = folder_ / "lagging.jsonl";
+  recon::WriteSkeletons(truth, SwingingFrom(0.0, 900));
+  recon::WriteSkeletons(late, SwingingFrom(-1.0 / 30.0, 900));
+  auto run = RunOssa({"compare", truth, late});
+  EXPECT_NE(
+      run.out.find("lagging.jsonl is 0.033 s behind the truth, 1.0 frames (standard error 0."),
+      std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("add --time -0.033."), std::string::npos) << run.out;
+  run = RunOssa({"compare", truth, late, "--time", "-0.033"});
+  EXPECT_EQ(run.out.find("behind the truth"), std::string::npos) << run.out;
+  run = RunOssa({"compare", truth, truth});
+  EXPECT_EQ(run.out.find("the truth, "), std::string::npos) << run.out;
 }
 
 TEST_F(CompareCommand, NamesTheOffsetOfAResultThatBeganLaterWithTheSameFrameTimes) {

@@ -6,6 +6,7 @@
 
 #include "tools/experiments/compare/clock_offset.h"
 #include "tools/experiments/compare/comparison.h"
+#include "tools/experiments/compare/median_offset.h"
 
 namespace ossa::tools {
 namespace {
@@ -79,6 +80,25 @@ std::optional<Advice> AdviseOnClock(const ComparedResult& result) {
                 found->moved_cm};
 }
 
+// A lag of a filter or a sensor is an error, that of another clock is none: both look alike.
+std::string AdviseOnLag(const Comparison& comparison) {
+  for (const ComparedResult& result : comparison.results) {
+    OffsetOfPieces pieces;
+    for (const PairedTracks& pair : result.pairs) {
+      if (pair.same_clock) pieces.Add(pair);
+    }
+    const auto found = pieces.FindEvident();
+    if (!found) continue;
+    return fmt::format(
+        "{} is {:.3f} s {} the truth, {:.1f} frames (standard error {:.3f} s, median of {} pieces "
+        "of 3 s): that counts as error; if only the clocks differ, add --time {:.3f}.",
+        result.label, std::abs(found->offset_s), found->offset_s < 0 ? "behind" : "ahead of",
+        std::abs(found->offset_s) / found->frame_s, found->standard_error_s, found->pieces,
+        found->offset_s);
+  }
+  return "";
+}
+
 std::string AdviseOnOrigin(const ComparedResult& result) {
   constexpr double kApart_cm = 50.0;  // no sensor has such a mean error
   const auto error_cm = result.mean.mean_joint_error_cm;
@@ -128,7 +148,7 @@ std::string MakeAdvice(const Comparison& comparison) {
       return origin;
     }
   }
-  return "";
+  return AdviseOnLag(comparison);
 }
 
 }  // namespace ossa::tools

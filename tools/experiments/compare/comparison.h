@@ -62,7 +62,7 @@ Comparison Compare(const std::string& truth, const std::vector<std::string>& res
 /// tests.
 std::string ToJson(const Comparison& comparison);
 /// A suggestion if the errors show that the skeletons are in different coordinate systems or on
-/// different clocks, or that one is mirrored; else "".
+/// different clocks, that one is mirrored, or that one is steadily late or early; else "".
 std::string MakeAdvice(const Comparison& comparison);
 /// The clocks of a result and its truth that evidently differ.
 struct ClockDifference {
