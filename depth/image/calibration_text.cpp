@@ -212,6 +212,13 @@ std::optional<Calibration> ReadCameraModel(const std::string& block, const std::
   return found;
 }
 
+// Numbers alone may also be those of a pose or a rotation, such as ScanNet's extrinsics.
+bool IsOfACamera(const std::array<double, 9>& matrix) {
+  constexpr double kRounded = 1e-6;  // no unit; by hand: of numbers that were computed
+  const auto is = [&](size_t i, double value) { return std::abs(matrix[i] - value) < kRounded; };
+  return is(3, 0.0) && is(6, 0.0) && is(7, 0.0) && is(8, 1.0) && !(is(0, 1.0) && is(4, 1.0));
+}
+
 }  // namespace
 
 std::optional<Calibration> ReadKalibrCamera(const std::string& text, const std::string& name) {
@@ -251,9 +258,15 @@ std::optional<Calibration> ReadBareMatrix(const std::string& text) {
   const std::vector<double> n = ReadNumbers(text);
   const bool begins_with_matrix =  // as in BIWI's depth.cal, which also has the distortion
       n.size() > 9 && n[3] == 0 && n[6] == 0 && n[7] == 0 && n[8] == 1;
-  if (n.size() == 9 || begins_with_matrix) return Calibration{.matrix = RowByRow(n)};
-  if (n.size() != 12 && n.size() != 16) return std::nullopt;  // rows of four
-  return Calibration{.matrix = RowByRow({n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]})};
+  Calibration found;
+  if (n.size() == 9 || begins_with_matrix) {
+    found.matrix = RowByRow(n);
+  } else if (n.size() == 12 || n.size() == 16) {  // rows of four
+    found.matrix = RowByRow({n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]});
+  } else {
+    return std::nullopt;
+  }
+  return IsOfACamera(found.matrix) ? std::optional(found) : std::nullopt;
 }
 
 std::optional<Calibration> FindCalibration(const std::string& text, const std::string& name) {

@@ -186,7 +186,8 @@ CameraChoice ReadCameraFile(const std::filesystem::path& path) {
   if (const auto named = ReadNamedNumbers(text, name)) return ChoiceOf(*named, name);
   throw InputError(
       name +
-      ": expected a camera_matrix, as OpenCV and ROS write it, or its numbers alone, or "
+      ": expected a camera_matrix, as OpenCV and ROS write it, or its numbers alone (fx 0 cx, 0 fy "
+      "cy, 0 0 1), or "
       "fx, fy, cx and cy by name, or a camera of Kalibr or COLMAP");
 }
 

@@ -87,12 +87,12 @@ struct SourceOptions {
 };
 
 /// Whether the path is a file of depth images by its extension, in any case (.oni, .mkv, .bag,
-/// .png), or a folder of PNGs. Throws std::filesystem::filesystem_error for a folder that cannot be
-/// read.
+/// .png), or a folder of PNGs or a scan. Throws std::filesystem::filesystem_error for a folder that
+/// cannot be read.
 bool IsRecording(const std::filesystem::path& path);
 
 /// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", "FILE.mkv", "FILE.bag", "FILE.bag#/topic", a
-/// folder of 16-bit PNGs, or a DATASET folder; or one such PNG, a still (docs/sources.md). Throws
+/// folder of 16-bit PNGs, a scan or a DATASET; or one such PNG, a still (docs/sources.md). Throws
 /// InputError naming it and what was expected.
 std::unique_ptr<FrameSource> OpenSource(const std::string& source,
                                         const SourceOptions& options = {});

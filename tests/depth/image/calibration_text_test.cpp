@@ -145,6 +145,15 @@ TEST(Calibration, NumbersAloneAreAMatrix) {
   }
 }
 
+// ScanNet has extrinsic_depth.txt beside intrinsic_depth.txt, and poses as 4 x 4 numbers.
+TEST(Calibration, NumbersOfAPoseAreNoCameraMatrix) {
+  for (const char* text :
+       {"1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "1 2 3\n4 5 6\n7 8 9\n", "1 0 0 0 1 0 0 0 1",
+        "-0.96 0.27 -0.08 2.65\n0.27 0.76 -0.59 2.98\n-0.1 -0.59 -0.8 1.37\n0 0 0 1\n"}) {
+    EXPECT_FALSE(ReadBareMatrix(text)) << text;
+  }
+}
+
 TEST(Calibration, OtherTextHasNone) {
   for (const char* text : {"", "{}", "camera: K", "%YAML:1.0", R"({"width": 64, "fx": 1})"}) {
     EXPECT_FALSE(FindCalibration(text, "x")) << text;
