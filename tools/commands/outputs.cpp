@@ -134,9 +134,9 @@ void WriteOptions::AddTo(CLI::App& app) {
 
 void WriteOptions::AddSurfaceTo(CLI::App& app) {
   app.add_option(
-         "--surface", surface,
-         ".ossasurface of 'ossa surface' to which --mesh belongs (default: the shipped one)")
-      ->needs("--mesh");
+      "--surface", surface,
+      ".ossasurface of 'ossa surface' to which --mesh belongs (default: the shipped one)");
+  needs_mesh = true;
 }
 
 void WriteOptions::Check(const std::string& out) const {
@@ -150,7 +150,7 @@ void WriteOptions::Check(const std::string& out) const {
   if (!mesh.empty() && !is_glb && !has_page) {
     throw Contradiction("--mesh " + mesh + ": expected --out FILE.glb with it");
   }
-  if (!surface.empty() && is_glb && mesh.empty()) {
+  if (!surface.empty() && (is_glb || needs_mesh) && mesh.empty()) {
     throw Contradiction("--surface " + surface +
                         ": expected its skin with it, --mesh FILE.ossamesh, or --mesh none");
   }

@@ -55,12 +55,13 @@ InputError FinishWithWhatFits(const DiskFull& full, recon::SkeletonWriter& write
 /// The options --bvh-names and --mesh for writing skeletons.
 struct WriteOptions {
   std::string names, mesh;
-  std::string surface;    // the surface that --mesh belongs to; "": the shipped one
-  bool has_page = false;  // also shown in a browser, with the same skin
+  std::string surface;      // the surface that --mesh belongs to; "": the shipped one
+  bool needs_mesh = false;  // --surface goes with --mesh only
+  bool has_page = false;    // also shown in a browser, with the same skin
   void AddTo(CLI::App& app);
   /// Adds --surface, for commands without a surface fit.
   void AddSurfaceTo(CLI::App& app);
-  /// Throws UsageError for a given option that the format of `out` does not use.
+  /// Throws Contradiction for a given option that the format of `out` does not use.
   void Check(const std::string& out) const;
   /// Loads the skin for a .glb. Throws InputError.
   recon::SkeletonWriteOptions For(const std::string& out) const;

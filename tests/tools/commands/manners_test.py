@@ -237,6 +237,13 @@ class Defaults(unittest.TestCase):
         both = "[track]\nhinges = true\nphysics = \"on\"\n"
         self.assertEqual(self.track(both + "mesh = \"none\"\n")[1], self.track("", "--physics", "on", "--hinges")[1])
 
+    def test_count_as_given_for_options_that_need_them(self):
+        self.file.write_text("[reconstruct]\nmesh = \"none\"\n")
+        clip, out = CLIP / "truth.jsonl", self.folder / "a.glb"
+        for config, status in ((str(self.file), 0), ("", 2)):  # 2: no skin is given with the surface
+            result = run("reconstruct", clip, "--out", out, "--surface", self.folder / "no.ossasurface", OSSA_CONFIG=config)
+            self.assertEqual(result.returncode, status, result.stderr)
+
     def test_yield_with_a_line_that_says_why(self):
         self.file.write_text("[compare]\nseed = 2\ntime = \"none\"\n")
         tracks = self.folder / "a.jsonl"
