@@ -16,6 +16,7 @@
 #include "depth/image/packed_depth.h"
 #include "depth/sensor/oni_codec_internal.h"
 #include "depth/sensor/oni_format_internal.h"
+#include "depth/sensor/sensor_clock.h"
 
 namespace ossa::depth {
 namespace {
@@ -231,8 +232,9 @@ struct OniRecorder::State {
 
   // Time since the first frame, strictly increasing, as the player's seek table requires.
   uint64_t ComputeTimestamp_us(const DepthFrame& frame) {
-    if (seek_table.size() == 1) first_time_s = frame.time_s;
-    const double since_us = std::max(0.0, (frame.time_s - first_time_s) * 1e6);
+    const double time_s = clock.TimeOf(frame.time_s);
+    if (seek_table.size() == 1) first_time_s = time_s;
+    const double since_us = (time_s - first_time_s) * 1e6;
     const auto stamp = static_cast<uint64_t>(std::llround(since_us));
     const bool first = seek_table.size() == 1;
     return first ? 0 : std::max(stamp, seek_table.back().timestamp_us + 1);
@@ -244,6 +246,7 @@ struct OniRecorder::State {
   int frames_per_second;
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash{XXH3_createState(), XXH3_freeState};
   std::vector<OniSeekEntry> seek_table{OniSeekEntry{}};  // entry 0 is unused: frames start at 1
+  SensorClock clock;
   double first_time_s = 0.0;
   uint64_t position = 0;
   uint64_t frames_end = 0;  // end of the last complete frame

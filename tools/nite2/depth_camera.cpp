@@ -12,8 +12,6 @@
 namespace ossa::nite2 {
 namespace {
 
-constexpr double kMicrosecond = 1e-6;  // in seconds; by definition
-
 thread_local const DepthCamera* in_call_of = nullptr;
 
 void Require(OniStatus status, const std::string& what) {
@@ -161,17 +159,6 @@ DepthCamera::Geometry DepthCamera::geometry() const {
   return geometry_;
 }
 
-// Seconds that never run backwards, unlike those of a recording that restarts.
-double DepthCamera::TimeOf(const OniFrame& frame) {
-  constexpr double kPeriod_s = 1.0 / 30.0;  // of the usual camera, by convention
-  const double sensor_s = static_cast<double>(frame.timestamp) * kMicrosecond;
-  if (frames_ > 0 && frame.timestamp < last_us_) {
-    offset_s_ += static_cast<double>(last_us_ - frame.timestamp) * kMicrosecond + kPeriod_s;
-  }
-  last_us_ = frame.timestamp;
-  return sensor_s + offset_s_;
-}
-
 std::optional<CameraFrame> DepthCamera::Next(std::chrono::milliseconds timeout) {
   bool known = true;
   OniFrame* delivered = FrameReader::Instance().Read(stream_, timeout, [&] {
@@ -189,7 +176,7 @@ std::optional<CameraFrame> DepthCamera::Next(std::chrono::milliseconds timeout) 
   frame.mirrored = seen.mirrored;
   frame.image.depth_mm = ReadMillimetres(*delivered, seen.mirrored);
   frame.image.camera = MakeCamera(seen, *delivered);
-  frame.image.time_s = TimeOf(*delivered);
+  frame.image.time_s = clock_.TimeOf(delivered->timestamp);
   frame.image.index = frames_++;
   return frame;
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "depth/image/depth_frame.h"
+#include "depth/sensor/sensor_clock.h"
 
 namespace ossa::nite2 {
 
@@ -75,7 +76,6 @@ class DepthCamera {
   void Open(OniDeviceHandle device);
   void Close();
   void ReadGeometry();
-  double TimeOf(const OniFrame& frame);
   static void ONI_CALLBACK_TYPE OnDisconnected(const OniDeviceInfo* info, void* camera);
   static void ONI_CALLBACK_TYPE OnFrame(OniStreamHandle stream, void* camera);
 
@@ -91,8 +91,7 @@ class DepthCamera {
   Geometry geometry_;
   std::function<void()> on_frame_;
   int64_t frames_ = 0;
-  uint64_t last_us_ = 0;
-  double offset_s_ = 0.0;  // our time minus the sensor's, whose clock may restart
+  depth::SensorClock clock_;
 };
 
 }  // namespace ossa::nite2

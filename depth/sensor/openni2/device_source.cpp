@@ -20,6 +20,7 @@
 #include "depth/sensor/openni2/first_camera_internal.h"
 #include "depth/sensor/openni2/lasting_thread.h"
 #include "depth/sensor/openni2/openni_depth_internal.h"
+#include "depth/sensor/sensor_clock.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
@@ -199,7 +200,7 @@ class Device {
     }
     const double sensor_s = static_cast<double>(frame.getTimestamp()) * 1e-6;
     if (last_index_ < 0) {
-      time_offset_s_ = -sensor_s;
+      clock_.SetTime(0.0, sensor_s);
     } else if (after_gap_) {
       result.dropped = CountGap(sensor_s);
     } else {
@@ -209,8 +210,7 @@ class Device {
     last_device_index_ = frame.getFrameIndex();
     last_index_ += 1 + result.dropped;
     result.frame.index = last_index_;
-    last_time_s_ = std::max(sensor_s + time_offset_s_, last_time_s_);
-    result.frame.time_s = last_time_s_;
+    result.frame.time_s = last_time_s_ = clock_.TimeOf(sensor_s);
     last_frame_at_ = Clock::now();
     return result;
   }
@@ -219,7 +219,7 @@ class Device {
   // clock, and frames of the gap count as dropped.
   int64_t CountGap(double sensor_s) {
     const double gap_s = std::chrono::duration<double>(Clock::now() - last_frame_at_).count();
-    time_offset_s_ = last_time_s_ + gap_s - sensor_s;
+    clock_.SetTime(last_time_s_ + gap_s, sensor_s);
     return std::max<int64_t>(std::llround(gap_s / period_s_) - 1, 0);
   }
 
@@ -238,7 +238,7 @@ class Device {
   bool mirrored_ = false;
   bool after_gap_ = true;
   double period_s_ = 1.0 / 30.0;
-  double time_offset_s_ = 0.0;  // our time minus the device's
+  SensorClock clock_;
   double last_time_s_ = 0.0;
   int64_t last_index_ = -1;
   int64_t last_device_index_ = 0;

@@ -8,6 +8,7 @@
 #include "depth/sensor/openni2/openni_depth_internal.h"
 #include "depth/sensor/openni2/runtime_folder.h"
 #include "depth/sensor/recording_pipe_internal.h"
+#include "depth/sensor/sensor_clock.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
@@ -88,7 +89,7 @@ class OniFileSource final : public FrameSource {
                                  static_cast<size_t>(window.height));
     pipe_.Take(result.frame.depth_mm.data(), result.frame.depth_mm.size() * sizeof(uint16_t));
     result.frame.index = message.index;
-    result.frame.time_s = static_cast<double>(message.timestamp_us) * 1e-6;
+    result.frame.time_s = clock_.TimeOf(message.timestamp_us);
     pipe_.RecordFrame(message.index);
     return result;
   }
@@ -105,6 +106,7 @@ class OniFileSource final : public FrameSource {
   Camera whole_;   // of the full image, of which frames may be a part
   Camera camera_;  // of the frames
   std::optional<int64_t> frame_count_;
+  SensorClock clock_;
 };
 
 }  // namespace

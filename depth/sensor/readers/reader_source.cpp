@@ -8,6 +8,7 @@
 #include "depth/sensor/openni2/runtime_folder.h"
 #include "depth/sensor/readers/reader_pipe_internal.h"
 #include "depth/sensor/recording_pipe_internal.h"
+#include "depth/sensor/sensor_clock.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
@@ -104,7 +105,7 @@ class ReaderSource final : public FrameSource {
     pipe_.Take(result.frame.depth_mm.data(), FrameSize() - sizeof(head));
     result.dropped = head.dropped;
     result.frame.index = pipe_.next_frame() + head.dropped;
-    result.frame.time_s = head.time_s;
+    result.frame.time_s = clock_.TimeOf(head.time_s);
     pipe_.RecordFrame(result.frame.index);
     return result;
   }
@@ -114,6 +115,7 @@ class ReaderSource final : public FrameSource {
   SourceOptions options_;
   RecordingPipe pipe_;
   ReaderHello hello_;
+  SensorClock clock_;
 };
 
 std::unique_ptr<FrameSource> OpenWith(const Reader& reader, const std::string& name,
