@@ -30,14 +30,10 @@ void PeopleLog::UpdatePresence(const SkeletonFrame& frame) {
   }
 }
 
-double PeopleLog::BeginFor(int id) const {
-  return std::min(times_s_.front(), seen_.at(id)[0].time_s);
-}
-
 PeopleLog PeopleLog::First(int64_t frames) const {
   PeopleLog first(folder_);
   first.times_s_.assign(times_s_.begin(), times_s_.begin() + frames);
-  const double end_s = *std::max_element(first.times_s_.begin(), first.times_s_.end());
+  const double end_s = first.times_s_.back();
   for (const int id : ids_) {
     const std::vector<PresenceInterval> stays = PresenceUntil(id, end_s);
     SightingLog seen = seen_.at(id).Until(end_s);

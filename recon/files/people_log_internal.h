@@ -31,9 +31,8 @@ class PeopleLog {
   /// Ids in order of appearance. Bodies without a joint in any frame are left out: their postures
   /// would be invented.
   const std::vector<int>& ids() const { return ids_; }
-  /// Start time of a person's file: that of the first frame of the recording; of a recording whose
-  /// times run backwards, the person's first.
-  double BeginFor(int id) const;
+  /// Start time of all people's files: that of the first frame of the recording.
+  double begin_s() const { return times_s_.front(); }
   const std::vector<PresenceInterval>& StaysOf(int id) const { return presence_.at(id); }
   int64_t frame_count() const { return static_cast<int64_t>(times_s_.size()); }
   /// The log of the first `frames` frames, at least one, in memory.

@@ -35,7 +35,7 @@ class BvhWriter final : public SkeletonWriter::Format {
     const std::vector<int>& ids = people.ids();
     for (size_t i = 0; i < ids.size(); ++i) {
       try {
-        WriteSightingsAsBvh(people.SightingsOf(ids[i]), people.BeginFor(ids[i]),
+        WriteSightingsAsBvh(people.SightingsOf(ids[i]), people.begin_s(),
                             PathForBody(path_, i, ids[i]), options_);
       } catch (const DiskFull&) {
         for (size_t k = 0; k < i; ++k) fs::remove(PathForBody(path_, k, ids[k]));

@@ -171,7 +171,7 @@ class GltfWriter final : public SkeletonWriter::Format {
   }
 
   void AddPerson(const PeopleLog& people, int id, GltfScene& scene) {
-    const double begin_s = people.BeginFor(id);
+    const double begin_s = people.begin_s();
     const SightingLog& seen = people.SightingsOf(id);
     CheckLength(scene.Bytes(), seen.size());
     HeldBody held(seen);

@@ -60,10 +60,16 @@ std::unique_ptr<SkeletonWriter::Format> NewWriter(const fs::path& path,
 }  // namespace
 
 SkeletonWriter::SkeletonWriter(const fs::path& path, const SkeletonWriteOptions& options)
-    : format_(NewWriter(path, options)) {}
+    : path_(path), format_(NewWriter(path, options)) {}
 SkeletonWriter::~SkeletonWriter() = default;
 
+// Files with times that fall are read by no one, and a BVH loses the frames.
 void SkeletonWriter::Write(const SkeletonFrame& frame) {
+  if (last_s_ && frame.time_s < *last_s_) {
+    throw InputError(fmt::format("{}: frame {}: expected times that grow, found {} after {}",
+                                 path_.string(), frame.frame, frame.time_s, *last_s_));
+  }
+  last_s_ = frame.time_s;
   ++frame_count_;
   format_->Write(frame);
 }

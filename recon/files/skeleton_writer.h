@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "recon/fit/body_surface.h"
 #include "recon/motion/bvh.h"
@@ -19,14 +20,14 @@ struct SkeletonWriteOptions {
 
 /// Writes skeletons frame by frame, in the format of the extension: .jsonl, .csv, .trc, .bvh, .glb.
 /// Memory does not grow with the recording, except for eight bytes per frame of a .trc, .bvh or
-/// .glb. The postures of a .bvh or .glb are kept in an unnamed temporary file (half a kilobyte per
-/// frame and person), and a .glb is composed in memory at the end. A .glb (glTF 2.0) has a skinned
-/// humanoid per person, "person ID", with a T-pose at rest, animated at the frames' own times in
-/// the skeletons' axes (camera space); people out of view have scale 0. TRC and BVH hold one person
-/// per file: of several, the first is written to `path` and each other one to `path` with `_ID`
-/// before the extension; all begin with the first frame. The complete files appear under their
-/// names at Finish(); without it nothing is left. If the process is killed, complete lines stay
-/// under the temporary name (AtomicFile).
+/// .glb, and a tenth of a megabyte per person. The postures of a .bvh or .glb are kept in an
+/// unnamed temporary file (half a kilobyte per frame and person), and a .glb is composed in memory
+/// at the end. A .glb (glTF 2.0) has a skinned humanoid per person, "person ID", with a T-pose at
+/// rest, animated at the frames' own times in the skeletons' axes (camera space); people out of
+/// view have scale 0. TRC and BVH hold one person per file: of several, the first is written to
+/// `path` and each other one to `path` with `_ID` before the extension; all begin with the first
+/// frame. The complete files appear under their names at Finish(); without it nothing is left. If
+/// the process is killed, complete lines stay under the temporary name (AtomicFile).
 class SkeletonWriter {
  public:
   /// Throws InputError for another extension and for a path that cannot be written.
@@ -34,7 +35,8 @@ class SkeletonWriter {
                           const SkeletonWriteOptions& options = {});
   ~SkeletonWriter();
 
-  /// Throws DiskFull if the frame does not fit.
+  /// Throws InputError if the frame is earlier than the one before, and then leaves it out;
+  /// DiskFull if it does not fit.
   void Write(const SkeletonFrame& frame);
   /// Shape of a person by the surface fit (PersonShape); the last call counts. Only a .glb shows
   /// it; people without one have the mean shape.
@@ -53,7 +55,9 @@ class SkeletonWriter {
   class Format;
 
  private:
+  std::filesystem::path path_;
   std::unique_ptr<Format> format_;
+  std::optional<double> last_s_;  // time of the last frame
   int64_t frame_count_ = 0;
 };
 

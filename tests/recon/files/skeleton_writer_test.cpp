@@ -9,6 +9,7 @@
 #include "recon/files/skeleton_io.h"
 #include "tests/recon/files/skeleton_examples.h"
 #include "tests/support/full_disk.h"
+#include "tests/support/refused.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
 
@@ -51,6 +52,23 @@ TEST_P(EveryFormat, IsWrittenEquallyWithAnExtensionInCapitals) {
   // A .trc states its own name, which is as long.
   EXPECT_EQ(std::filesystem::file_size(folder_ / ("y" + capitals)),
             std::filesystem::file_size(path()));
+}
+
+// As by a program whose clock is set back: the file is that of the other frames.
+TEST_P(EveryFormat, RefusesAFrameEarlierThanTheOneBefore) {
+  const SkeletonSequence sequence = ExampleSequence(6);
+  WriteSkeletons(path(), sequence);
+  const std::string expected = TextOf(path());
+  const SkeletonFrame early = sequence.frames[2];
+  SkeletonWriter writer(path());
+  for (const SkeletonFrame& frame : sequence.frames) {
+    writer.Write(frame);
+    if (frame.frame < 3) continue;
+    test::ExpectRefused([&] { writer.Write(early); },
+                        "frame 2: expected times that grow, found 0.06");
+  }
+  writer.Finish();
+  EXPECT_EQ(TextOf(path()), expected);
 }
 
 long Resident_kB() {

@@ -337,8 +337,8 @@ typedef struct ossa_writer ossa_writer;
 /* Opens a skeleton file for writing, in the format of its extension: .jsonl, .csv, .trc, .bvh or
    .glb, as `ossa track --out`. options may be NULL. NULL on failure. */
 ossa_writer* ossa_writer_open(const char* path, const ossa_writer_options* options);
-/* Adds the tracker's last frame. Fails on a full disk; ossa_writer_finish keeps the complete
-   frames. */
+/* Adds the tracker's last frame. Fails for a frame that is earlier than the one before, which is
+   left out, and on a full disk; ossa_writer_finish keeps the complete frames. */
 ossa_status ossa_writer_write(ossa_writer* writer, const ossa_tracker* tracker);
 /* Completes the file under its name. Nothing can be written afterwards. */
 ossa_status ossa_writer_finish(ossa_writer* writer);
