@@ -64,6 +64,11 @@ class Events(unittest.TestCase):
     def test_view_sends_events_of_a_camera(self):
         self.check(self.run_and_read("track", f"openni:ossa://{ONE}?loop=1", "--view", "--quiet"))
 
+    def test_events_of_a_source_are_lines_of_the_skeleton_file_without_lag(self):
+        receivers.track(ONE, receivers.WORK / "one.jsonl", options=["--lag", "0"])
+        frames = receivers.frames_of(receivers.WORK / "one.jsonl")
+        for event in self.run_and_read("view", str(ONE)):
+            self.assertEqual(event, frames[event["frame"]])
 
     def test_pages_of_this_machine_can_read_events(self):
         process, port = start("view", str(ONE))

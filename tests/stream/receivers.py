@@ -73,8 +73,8 @@ def bind_in_a_row(count):
     raise OSError("no free ports in a row")
 
 
-def track(clip, out, *targets, expect=0):
-    command = [str(BUILD / "bin" / "ossa"), "track", str(clip), "--out", str(out), "--quiet"]
+def track(clip, out, *targets, expect=0, options=()):
+    command = [str(BUILD / "bin" / "ossa"), "track", str(clip), "--out", str(out), "--quiet", *options]
     for target in targets:
         command += ["--send", target]
     result = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)

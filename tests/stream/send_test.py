@@ -1,13 +1,14 @@
 """`ossa track --send`: what an independent OSC library makes of it."""
 import math
 import socket
+import subprocess
 import time
 import unittest
 
 import receivers
-from receivers import SOURCE, WORK, cross, frames_of, messages, multiply, rotate, room_of, track, unit
+from receivers import BUILD, SOURCE, WORK, cross, frames_of, messages, multiply, rotate, room_of, track, unit
 
-ONE, TWO = (SOURCE / "tests" / "golden" / "clips" / name for name in ("one", "two"))
+ONE = SOURCE / "tests" / "golden" / "clips" / "one"
 MOST_M = 0.001
 
 # Unity's bone -> its parent, the joint where it is, the joint it points to in a T-pose and where that is.
@@ -162,15 +163,24 @@ def by_euler(degrees, v):
     return v
 
 
+def two_people():
+    """A clip of two people in a room who are both in view: seeds differ in that."""
+    clip = WORK / "two_people"
+    subprocess.run([BUILD / "bin" / "ossa", "render", "--mocap", "authored", "--out", clip, "--sequence", "--people", "2",
+                    "--seed", "11", "--split", "test", "--size", "320x240", "--frames", "10", "--quiet"], check=True)
+    return clip
+
+
 class Sending(unittest.TestCase):
     def test_every_person_has_their_own_port(self):
         vmc, out = receivers.Receiver(3), WORK / "two.jsonl"
-        track(TWO, out, f"vmc://127.0.0.1:{vmc.port}")
+        track(two_people(), out, f"vmc://127.0.0.1:{vmc.port}")
         first, second, third = vmc.finish()
         frames = frames_of(out)
         rooms = room_of(frames)
         self.assertEqual(third, [])
         ids = sorted({body["id"] for frame in frames for body in frame["bodies"]})
+        self.assertEqual(ids, [1, 2])
         for datagrams, body_id in zip((first, second), ids):
             seen = [(room, body) for room, frame in zip(rooms, frames) for body in frame["bodies"]
                     if body["id"] == body_id]
