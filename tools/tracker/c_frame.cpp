@@ -9,6 +9,11 @@ namespace {
 
 static_assert(OSSA_JOINT_COUNT == recon::kJointCount);
 static_assert(OSSA_FOOT_RIGHT == static_cast<int>(recon::Joint::kFootRight));
+static_assert(OSSA_NOT_TRACKED == static_cast<int>(recon::TrackingState::kNotTracked));
+static_assert(OSSA_INFERRED == static_cast<int>(recon::TrackingState::kInferred));
+static_assert(OSSA_TRACKED == static_cast<int>(recon::TrackingState::kTracked));
+static_assert(OSSA_POSITION_ONLY == static_cast<int>(BodyState::kPositionOnly));
+static_assert(OSSA_FULLY_TRACKED == static_cast<int>(BodyState::kTracked));
 
 void Copy(const Eigen::Quaterniond& from, float* to) {
   to[0] = static_cast<float>(from.w());

@@ -38,27 +38,6 @@ TEST(CInterface, CProgramTracksAndChoosesUsers) {
   EXPECT_EQ(walk.Next().state, OSSA_POSITION_ONLY);
 }
 
-// The C++ and the C interface give the same results for the same image.
-TEST(CInterface, JointsEqualThoseOfTheCppInterface) {
-  OSSA_NEEDS_MODEL();
-  ossa_options options{};
-  options.struct_size = sizeof options;
-  WalkInC walk(options);
-  Tracker tracker;
-  const ossa_body c = walk.Next();
-  const BodyFrame frame = tracker.Track(Rendered({PersonAt(0.0, 2.5)}).frame);
-  ASSERT_EQ(frame.bodies.size(), 1U);
-  const Body& body = frame.bodies[0];
-  for (size_t j = 0; j < recon::kJointCount; ++j) {
-    for (int i = 0; i < 3; ++i) {
-      EXPECT_EQ(c.joints[j].position_m[i], static_cast<float>(body.joints[j].position_m[i]));
-      EXPECT_EQ(c.refined_m[j][i], static_cast<float>(body.refined->position_m[j][i]));
-    }
-    EXPECT_EQ(c.joints[j].orientation_wxyz[0], static_cast<float>(body.joints[j].orientation.w()));
-    EXPECT_EQ(c.joints[j].state, static_cast<int32_t>(body.joints[j].state));
-  }
-}
-
 TEST(CInterface, ReturnsJointNamesAndVersion) {
   EXPECT_STREQ(ossa_joint_name(OSSA_WRIST_RIGHT), "WristRight");
   EXPECT_EQ(ossa_joint_parent(OSSA_WRIST_RIGHT), OSSA_ELBOW_RIGHT);

@@ -15,7 +15,7 @@ depth::DepthFrame WithoutEveryFifthPixel(depth::DepthFrame frame) {
   return frame;
 }
 
-TrackerOptions WithParts() {
+TrackerOptions KeepingParts() {
   TrackerOptions options = PlainOptions();
   options.keep_parts = true;
   options.keep_probabilities = true;
@@ -41,7 +41,7 @@ TEST(ScatteredHoles, LeaveJointsWhereTheyAre) {
 TEST(ScatteredHoles, BelongToNoPerson) {
   OSSA_NEEDS_MODEL();
   const auto frame = WithoutEveryFifthPixel(Rendered({PersonAt(0.0, 1.8)}).frame);
-  const BodyFrame bodies = Tracker(WithParts()).Track(frame);
+  const BodyFrame bodies = Tracker(KeepingParts()).Track(frame);
   ASSERT_EQ(bodies.bodies.size(), 1U);
   const auto classes = static_cast<size_t>(bodies.probabilities.classes);
   int of_user = 0;
