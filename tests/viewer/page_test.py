@@ -178,6 +178,29 @@ class RecordingPage(InBrowser):
         page.press("?")
         self.assertIn("play, pause", page.run("return document.getElementById('keys').innerText"))
 
+    def test_shown_frame_stays_when_the_connection_is_lost(self):
+        page = self.page
+        page.run("page.jump(12)")
+        page.wait_for_frame(12)
+        page.run("page.player.connection.socket.close()")
+        page.wait("return document.getElementById('status').textContent === 'no connection'", "the lost connection is shown")
+        page.wait("return document.getElementById('status').textContent.startsWith('frame ')", "it is back")
+        self.assertEqual(page.run("return page.frame.number"), 12)
+
+    def test_chosen_person_stays_chosen_when_others_come_and_go(self):
+        chosen = self.driver.execute_async_script("""
+            const done = arguments[0];
+            import('/page/panels.js').then(({fillSelect}) => {
+              const select = document.createElement('select'), chosen = [];
+              for (const names of [['1', '2'], ['1', '2', '3'], ['2', '3'], ['3', '4']]) {
+                fillSelect(select, names);
+                if (names.length === 2 && names[0] === '1') select.value = '2';
+                chosen.push(select.value);
+              }
+              done(chosen);
+            }).catch(error => done(error.message));""")
+        self.assertEqual(chosen, ["2", "2", "2", "3"])
+
     def test_button_says_play_again_at_the_end(self):
         page = self.page
         page.click("#loop")
@@ -343,6 +366,24 @@ class PhysicsPage(InBrowser):
 
 
 class SkeletonFilePage(InBrowser):
+    def test_view_follows_the_chosen_person(self):
+        lines = [json.loads(line) for line in (CLIP / "truth.jsonl").read_text().splitlines()]
+        for line in lines:
+            (first,) = line["bodies"]
+            second = {"id": 2, "joints": {name: {"p": [x - 1, y, z]} for name, (x, y, z) in
+                                          ((name, joint["p"]) for name, joint in first["joints"].items())}}
+            line["bodies"].append(second)
+        (WORK / "two.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
+        page = self.open(self.serve("view", WORK / "two.jsonl"))
+        page.wait("return document.getElementById('person').length === 2", "both people")
+        page.run("page.jump(0)")
+        page.wait_for_frame(0)
+        page.click("[data-view=follow]")
+        page.run("const choice = document.getElementById('person'); choice.value = '2'; choice.onchange(); page.jump(1)")
+        page.wait_for_frame(1)
+        x, _, _ = lines[1]["bodies"][1]["joints"]["Spine"]["p"]
+        self.assertAlmostEqual(page.run("return page.scene.controls.target.x"), x, delta=0.05)
+
     def test_skeletons_are_shown_without_images(self):
         page = self.open(self.serve("view", CLIP / "truth.jsonl"))
         self.assertTrue(page.run("return document.getElementById('pictures').hidden"))

@@ -33,7 +33,8 @@ export function drawStrip(canvas, track, total, index, span) {
   }
   context.globalAlpha = 1;
   context.fillStyle = colour('text');
-  people.forEach((id, k) => context.fillText(`person ${id}`, 4, (k + 0.5) * row + 4));
+  const every = Math.ceil(11 / row);  // of many people some are named: names are 11 pixels high
+  people.forEach((id, k) => { if (k % every === 0) context.fillText(`person ${id}`, 4, (k + 0.5) * row + 4); });
   context.fillRect(x(index + 0.5) - 1, 0, 2, height);
 }
 

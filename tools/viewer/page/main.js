@@ -31,7 +31,10 @@ class Page {
     const send = request => this.player.send(request);
     this.live = new LivePanel(send);
     this.settings = new SettingsPanel(send);
-    this.curves = new CurvesPanel(() => this.drawCharts());
+    this.curves = new CurvesPanel(() => {
+      this.scene.person = Number($('person').value);
+      this.drawCharts();
+    });
     this.worst = new WorstPanel(frame => this.jump(frame));
     this.connectLayers();
     this.connectPlayer();

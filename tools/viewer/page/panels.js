@@ -6,12 +6,14 @@ import {MEASURES, QUANTITIES, worstFrames} from './track.js';
 
 export const $ = id => document.getElementById(id);
 
+// What the user chose stays chosen as long as it is among the names.
 export function fillSelect(select, names, chosen) {
   const wanted = names.join('\n');
   if (select.dataset.names === wanted) return;
   select.dataset.names = wanted;
+  const kept = names.includes(select.value) ? select.value : chosen;
   select.replaceChildren(...names.map(name => new Option(name || 'of the method', name)));
-  if (chosen !== undefined) select.value = chosen;
+  if (kept !== undefined) select.value = kept;
 }
 
 const STAGES = ['segment', 'classify', 'propose', 'reconstruct', 'physics', 'total'];

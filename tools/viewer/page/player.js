@@ -96,7 +96,7 @@ export class Player {
       const request = this.requests.shift() ?? this.nextRequest();
       const answer = await this.connection.request(request);
       this.take(answer);
-      if (answer.lost) { this.generation = null; this.onLost?.(); await wait(IDLE_MS); }
+      if (answer.lost) { this.stale = true; this.onLost?.(); await wait(IDLE_MS); }
       if (this.kept) await this.pause(request);
     }
   }
