@@ -8,8 +8,9 @@
 #include "tests/fuzz/seeds.h"
 
 std::vector<std::string> ossa::fuzz::Seeds() {
-  return {"a%3Fb/c?loop=1&speed=2&fps=15&mirror=1",
-          "x.oni?unplug_after=30&replug_after_ms=200&unplugs=5&stall_after=7"};
+  return {
+      "a%3Fb/c?loop=1&speed=2&fps=15&mirror=1",
+      "x.oni?unplug_after=30&replug_after_ms=200&unplugs=5&stall_after=7&restart_clock_after=9"};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -168,6 +168,7 @@ class VirtualStream final : public DepthStream {
     constexpr std::chrono::seconds kLongestSilence{1};
     auto silent_since = Clock::now();
     const Seconds lateness{2.0 / camera_.fps() / options.speed};
+    uint64_t clock_began_us = 0;
     for (int delivered = 0;;) {
       const auto frame = camera_.Next();
       if (!frame) return driver_.Unplug(camera_, false);
@@ -178,9 +179,10 @@ class VirtualStream final : public DepthStream {
         continue;
       }
       if (!WaitUntil(due)) return;
-      const auto timestamp_us =
+      const auto due_us =
           static_cast<uint64_t>(std::chrono::duration<double, std::micro>(frame->due).count());
-      Deliver(frame->image.depth_mm.data(), frame->index, timestamp_us);
+      if (delivered == options.restart_clock_after) clock_began_us = due_us;
+      Deliver(frame->image.depth_mm.data(), frame->index, due_us - clock_began_us);
       ++delivered;
       silent_since = Clock::now();
       if (options.stall_after && delivered >= *options.stall_after) {

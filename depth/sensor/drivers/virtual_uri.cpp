@@ -76,9 +76,12 @@ void SetOption(const std::string& uri, const std::string& key, const std::string
     options->unplugs = static_cast<int>(number(0, kMostFrames));
   } else if (key == "stall_after") {
     options->stall_after = static_cast<int>(number(0, kMostFrames));
+  } else if (key == "restart_clock_after") {
+    options->restart_clock_after = static_cast<int>(number(0, kMostFrames));
   } else {
     throw InputError(uri + ": expected loop, speed, fps, mirror, mirrored, unplug_after, " +
-                     "replug_after_ms, unplugs or stall_after, found '" + key + "'");
+                     "replug_after_ms, unplugs, stall_after or restart_clock_after, found '" + key +
+                     "'");
   }
 }
 

@@ -19,8 +19,10 @@ struct VirtualDeviceOptions {
   std::optional<int> unplug_after;            // unplug_after=30; frames, > 0
   std::chrono::milliseconds replug_after{0};  // replug_after_ms=200; 0: stays unplugged
   int unplugs = 1;                            // unplugs=5: number of times; by hand
-  // ... and after this many it silently stops delivering.
+  // ... after this many it silently stops delivering ...
   std::optional<int> stall_after;  // stall_after=30; frames
+  // ... and after this many its clock starts again at 0, as a counter that overflows.
+  std::optional<int> restart_clock_after;  // restart_clock_after=30; frames
 };
 
 inline constexpr const char* kVirtualScheme = "ossa://";

@@ -94,5 +94,19 @@ TEST(OniReader, TimesContinueWhenTheClockRestarts) {
   ExpectTimesContinue(folder / "y.oni");
 }
 
+TEST(Device, TimesContinueWhenItsClockRestarts) {
+  const test::TemporaryFolder folder;
+  test::WriteExampleFolder(folder.path(), 10);
+  const auto source =
+      OpenSource("openni:ossa://" + folder.path().string() + "?loop=1&restart_clock_after=3");
+  double last_s = -1.0;
+  for (int frames = 0; frames < 6; ++frames) {
+    const ReadResult read = source->Read(std::chrono::minutes(1));
+    ASSERT_EQ(read.status, ReadStatus::kFrame);
+    EXPECT_GT(read.frame.time_s, last_s);
+    last_s = read.frame.time_s;
+  }
+}
+
 }  // namespace
 }  // namespace ossa::depth

@@ -10,7 +10,7 @@ namespace {
 TEST(VirtualUri, HasAPathAndOptions) {
   const auto options = ParseVirtualUri(
       "ossa:///data/a%3Fb%25c?loop=1&speed=2.5&fps=15&mirror=1&mirrored=1&unplug_after=30"
-      "&replug_after_ms=200&unplugs=3&stall_after=99");
+      "&replug_after_ms=200&unplugs=3&stall_after=99&restart_clock_after=98");
   EXPECT_EQ(options.path, "/data/a?b%c");
   EXPECT_TRUE(options.loop);
   EXPECT_TRUE(options.mirror);
@@ -21,6 +21,7 @@ TEST(VirtualUri, HasAPathAndOptions) {
   EXPECT_EQ(options.replug_after, std::chrono::milliseconds(200));
   EXPECT_EQ(options.unplugs, 3);
   EXPECT_EQ(options.stall_after, 99);
+  EXPECT_EQ(options.restart_clock_after, 98);
   EXPECT_FALSE(ParseVirtualUri("ossa://relative/path").loop);
   EXPECT_FALSE(ParseVirtualUri("ossa://x?mirror=1").mirrored);
 }
