@@ -45,6 +45,12 @@ bool IsSure(const tracker::Body& body) {
   return true;
 }
 
+// Not by its time: frames of some sensors have equal times.
+bool IsInView(const tracker::BodyFrame& frame, int body_id) {
+  return std::any_of(frame.bodies.begin(), frame.bodies.end(),
+                     [body_id](const tracker::Body& body) { return body.id == body_id; });
+}
+
 void Blend(const NiteSkeletonJoint* before, float smoothing, NiteSkeletonJoint* joints) {
   for (int j = 0; j < NITE_JOINT_COUNT; ++j) {
     const auto blend = [&](float old, float now) {
@@ -155,7 +161,7 @@ std::vector<NiteUserData> Users::Step(const tracker::BodyFrame& frame,
   std::vector<NiteUserData> all;
   for (auto at = users_.begin(); at != users_.end();) {
     User& user = at->second;
-    const bool visible = user.seen_s == frame.time_s;
+    const bool visible = IsInView(frame, user.body_id);
     const bool lost = frame.time_s - user.seen_s > kForget_s;
     if (!visible) {
       for (NiteSkeletonJoint& joint : user.data.skeleton.joints) {
