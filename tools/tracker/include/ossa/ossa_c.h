@@ -200,7 +200,8 @@ typedef struct {
 typedef struct {
   uint32_t struct_size;
   int32_t id;                          /* from 1; constant while the person is tracked */
-  int32_t state;                       /* ossa_body_state; of position only, all below is 0 */
+  int32_t state;                       /* ossa_body_state; of position only, joints, stages,
+                                          bones, fit and stature are 0 */
   float position_m[3];                 /* centroid of the visible surface */
   uint32_t clipped_edges;              /* by the image: 1 right, 2 left, 4 top, 8 bottom */
   ossa_joint joints[OSSA_JOINT_COUNT]; /* the skeleton, by ossa_joint_id */
