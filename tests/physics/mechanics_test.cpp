@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "physics/anthropometry.h"
 #include "physics/control_internal.h"
@@ -213,14 +214,20 @@ Vector3d CentreOfMass(const recon::Posture& posture) {
   return sum / mass_kg;
 }
 
-// Without gravity a push on an arm moves the centre of mass at constant speed, whatever the joints'
-// forces, and closing the gaps that the solver leaves does not move it.
-TEST(Mechanics, PushMovesTheCentreOfMassAtConstantSpeed) {
+// Nothing pulls them down, and nothing controls them.
+std::pair<World, int> SomebodyAdrift() {
   WorldOptions weightless;
   weightless.gravity_m_s2 = 0.0;
   World world(weightless);
   const int person = world.AddCharacter(Lengths(), StandingPerson(), Free());
   world.StopControl(person);
+  return {std::move(world), person};
+}
+
+// Without gravity a push on an arm moves the centre of mass at constant speed, whatever the joints'
+// forces, and closing the gaps that the solver leaves does not move it.
+TEST(Mechanics, PushMovesTheCentreOfMassAtConstantSpeed) {
+  auto [world, person] = SomebodyAdrift();
   const Vector3d start = CentreOfMass(world.StateOf(person).posture);
   const Vector3d impulse(10.0, -3.0, 5.0);
   world.ApplyImpulse(person, recon::Joint::kWristLeft, impulse);
@@ -234,11 +241,7 @@ TEST(Mechanics, PushMovesTheCentreOfMassAtConstantSpeed) {
 }
 
 TEST(Mechanics, ImpulseAddsToTheMomentum) {
-  WorldOptions weightless;
-  weightless.gravity_m_s2 = 0.0;
-  World world(weightless);
-  const int person = world.AddCharacter(Lengths(), StandingPerson(), Free());
-  world.StopControl(person);
+  auto [world, person] = SomebodyAdrift();
   const Vector3d impulse(10.0, -3.0, 5.0);
   world.ApplyImpulse(person, recon::Joint::kShoulderLeft, impulse);
   for (int i = 0; i < 10; ++i) world.Step(kFrame_s);

@@ -72,15 +72,21 @@ TEST(Reliability, IgnoresTurnsOfWhichOneStepIsBelowThreeCentimetres) {
   }
 }
 
-// Eq. 5 is at most 1: a wrist with one bone three times too long keeps what the other one tells.
-TEST(Reliability, CountsAFarTooLongBoneAsOne) {
+// After a frame with the person's bone lengths, one whose left hand is longer by this share.
+Reliability OfALongerHand(double share) {
   ReliabilityEstimator estimator;
-  Posture standing = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  const Posture standing = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
+  EXPECT_TRUE(IsReferencePosture(standing));
   estimator.Step(test::AllTracked(standing), nullptr);
   Posture wrong = standing;
   const Eigen::Vector3d bone = wrong.position_m[kHandLeft] - wrong.position_m[kHandLeft - 1];
-  wrong.position_m[kHandLeft] += 2.0 * bone;
-  const Reliability r = estimator.Step(test::AllTracked(wrong), nullptr);
+  wrong.position_m[kHandLeft] += share * bone;
+  return estimator.Step(test::AllTracked(wrong), nullptr);
+}
+
+// Eq. 5 is at most 1: a wrist with one bone three times too long keeps what the other one tells.
+TEST(Reliability, CountsAFarTooLongBoneAsOne) {
+  const Reliability r = OfALongerHand(2.0);
   EXPECT_NEAR(r.kinematics[kHandLeft], 0.0, 1e-9);
   EXPECT_NEAR(r.kinematics[kHandLeft - 1], 0.5, 1e-9);
 }
@@ -137,14 +143,7 @@ TEST(IsReferencePosture, NeedsStraightLegsAndForearms) {
 }
 
 TEST(Reliability, FallsWithAWrongBoneLength) {  // eqs. 5-6: the hand has one bone
-  ReliabilityEstimator estimator;
-  const Posture standing = test::InFrontOfCamera(test::Gesture(0.1, 0.1, 0.1));
-  ASSERT_TRUE(IsReferencePosture(standing));
-  estimator.Step(test::AllTracked(standing), nullptr);
-  Posture wrong = standing;
-  const Eigen::Vector3d bone = wrong.position_m[kHandLeft] - wrong.position_m[kHandLeft - 1];
-  wrong.position_m[kHandLeft] += 0.6 * bone;
-  const Reliability r = estimator.Step(test::AllTracked(wrong), nullptr);
+  const Reliability r = OfALongerHand(0.6);
   EXPECT_NEAR(r.kinematics[kHandLeft], 0.4, 1e-9);
   EXPECT_NEAR(r.kinematics[kHandLeft - 1], 0.7, 1e-9);  // mean over its two bones
   EXPECT_NEAR(r.kinematics[kHandLeft - 3], 1.0, 1e-9);

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "depth/base/error.h"
 #include "recon/methods/reconstructor.h"
@@ -14,22 +16,33 @@ namespace {
 
 constexpr size_t kHand = 7, kElbow = 5;
 
-/// Pairs of one gesture whose left hand is always seen 5 cm too low; of the left elbow no truth.
-std::shared_ptr<const LearnedModels> LowHand() {
+/// Pairs of one gesture of which this joint is always seen 5 cm too low.
+std::vector<PosturePair> PairsWithALow(size_t joint) {
   std::vector<PosturePair> pairs;
   for (int f = 0; f < 60; ++f) {
     PosturePair& pair = pairs.emplace_back();
     pair.observed = test::Motion(f / 10.0);
     pair.known.fill(1.0);
-    pair.known[kElbow] = 0.0;
-    pair.residual.position_m[kHand].y() = 0.05;
+    pair.residual.position_m[joint].y() = 0.05;
   }
+  return pairs;
+}
+
+std::shared_ptr<const LearnedModels> Learn(const std::vector<PosturePair>& pairs, int full_samples,
+                                           int centres) {
   LearnOptions options;
   options.mixture.regions = 3;
   options.mixture.samples = 15;
-  options.full_samples = 40;
-  options.correction.centres = 5;
+  options.full_samples = full_samples;
+  options.correction.centres = centres;
   return std::make_shared<const LearnedModels>(LearnedModels::Learn(pairs, options));
+}
+
+/// Of the left hand; of the left elbow there is no truth.
+std::shared_ptr<const LearnedModels> LowHand() {
+  std::vector<PosturePair> pairs = PairsWithALow(kHand);
+  for (PosturePair& pair : pairs) pair.known[kElbow] = 0.0;
+  return Learn(pairs, 40, 5);
 }
 
 class LearnedMethod : public testing::TestWithParam<std::string> {
@@ -167,21 +180,9 @@ TEST(Liu2016, ContinuesTheMotionOfAPartlyReliableJoint) {
 // The wrist is seen 5 cm too low, the hand not at all: it stays at the corrected wrist.
 TEST(Liu2016, KeepsAnAbsentHandAtItsWrist) {
   constexpr size_t kWrist = kHand - 1;
-  std::vector<PosturePair> pairs;
-  for (int f = 0; f < 60; ++f) {
-    PosturePair& pair = pairs.emplace_back();
-    pair.observed = test::Motion(f / 10.0);
-    pair.known.fill(1.0);
-    pair.residual.position_m[kWrist].y() = 0.05;
-  }
-  LearnOptions learn;
-  learn.mixture.regions = 3;
-  learn.mixture.samples = 15;
-  learn.full_samples = 10;
-  learn.correction.centres = 0;
   ReconstructorOptions options;
   options.method = "liu-2016";
-  options.learned = std::make_shared<const LearnedModels>(LearnedModels::Learn(pairs, learn));
+  options.learned = Learn(PairsWithALow(kWrist), 10, 0);
   const auto method = MakeReconstructor(options);
   for (int f = 0; f < 40; ++f) {
     TrackedPosture seen = test::AllTracked(test::InFrontOfCamera(test::Motion(f / 30.0)));

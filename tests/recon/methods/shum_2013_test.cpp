@@ -16,6 +16,15 @@
 namespace ossa::recon {
 namespace {
 
+// With a database of them.
+ReconstructorOptions OfGestures() {
+  ReconstructorOptions options;
+  options.method = "shum-2013";
+  options.database =
+      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  return options;
+}
+
 /// Mean error over a second of increasingly bad guesses for a stationary person, after two seconds
 /// of good observations.
 double ErrorWhileAllIsGuessed_m(const std::string& name) {
@@ -108,10 +117,7 @@ class SectionsFiveAndSix {
 // (method B).
 TEST(Shum2013, IsSectionsFiveAndSixWrittenOut) {
   for (const bool use_reliability : {true, false}) {
-    ReconstructorOptions options;
-    options.method = "shum-2013";
-    options.database =
-        std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+    ReconstructorOptions options = OfGestures();
     options.local_pca.use_reliability = use_reliability;
     const auto method = MakeReconstructor(options);
     SectionsFiveAndSix expected(options.database, options.local_pca, options.seed);
@@ -175,10 +181,7 @@ TEST(Shum2013, AddsAPostureOnce) {
 
 /// The method, which adds unexpected postures to its database or not.
 std::unique_ptr<Reconstructor> MakeExtending(bool extend) {
-  ReconstructorOptions options;
-  options.method = "shum-2013";
-  options.database =
-      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  ReconstructorOptions options = OfGestures();
   options.local_pca.extend_database = extend;
   return MakeReconstructor(options);
 }
@@ -252,10 +255,7 @@ TEST(Shum2013, AddedPosturesHaveOrientations) {
 
 /// Distance of the head from its observation, for a bow that is not in the database.
 double ErrorOfABowedHead_m(bool keep_reliable) {
-  ReconstructorOptions options;
-  options.method = "shum-2013";
-  options.database =
-      std::make_shared<PostureDatabase>(PostureDatabase::Build(test::GestureClips(), {}));
+  ReconstructorOptions options = OfGestures();
   options.local_pca.keep_reliable = keep_reliable;
   const auto method = MakeReconstructor(options);
   Posture truth;
