@@ -26,6 +26,9 @@ struct Line {
 
   int size() const { return is_column ? image.height : image.width; }
   int at(int i) const { return is_column ? image.at(index, i) : image.at(i, index); }
+  bool IsAlone(int i) const {  // a reading on none of its neighbours' surfaces
+    return i >= 0 && i < size() && at(i) > 0 && !Goes(i, i - 1) && !Goes(i, i + 1);
+  }
   bool Goes(int from, int to) const {  // whether it continues on the same surface
     return to >= 0 && to < size() && at(from) > 0 && at(to) > 0 &&
            std::abs(at(from) - at(to)) <= kStep_mm * units_per_mm;
@@ -55,6 +58,8 @@ Beside LookBeside(const Line& line, int end, int step) {
   for (int i = end + step; i != end + step * (shadow + 1); i += step) {
     if (i < 0 || i >= line.size()) return Beside::kNothing;
     if (line.at(i) == 0) continue;
+    // Smoothing leaves a ramp of pixels between a surface and a hole.
+    if (line.IsAlone(i) && line.IsAlone(i + step)) return Beside::kNothing;
     const double further = (line.at(i) - line.at(end)) / line.units_per_mm;
     if (further > kStep_mm / 2.0) return Beside::kLarger;
     return further < -kStep_mm / 2.0 ? Beside::kSmaller : Beside::kSame;

@@ -37,20 +37,26 @@ void SurfaceBend::AddLines(const DepthView& image, bool columns) {
   constexpr int kLeastSize = 8;  // pixels
   constexpr int kLines = 160;    // evaluated lines per image width
   constexpr double kKink = 0.8;  // ratio of residuals; by hand: with noise both are equal
+  constexpr int kMargins = 12;   // smoothing bends surfaces beside holes: this part of a window
   const int size = std::max(kLeastSize, image.width / kWindows);
   const int step = std::max(1, image.width / kLines), hop = size / 4;
   const int lines = columns ? image.width : image.height;
   const int length = columns ? image.height : image.width;
+  const auto depth_at = [&](int line, int i) -> int {  // the border continues
+    const int at = std::clamp(i, 0, length - 1);
+    return columns ? image.at(line, at) : image.at(at, line);
+  };
   const Parabola parabola(size);
   const Corner corner(size);
+  const int around = size / kMargins;
   std::vector<double> z(static_cast<size_t>(size));
   for (int line = 0; line < lines; line += step) {
     for (int begin = 0; begin + size <= length; begin += hop) {
       ++windows_;
-      for (int i = 0; i < size; ++i) {
-        z[static_cast<size_t>(i)] = columns ? image.at(line, begin + i) : image.at(begin + i, line);
-      }
+      for (int i = 0; i < size; ++i) z[static_cast<size_t>(i)] = depth_at(line, begin + i);
       if (std::find(z.begin(), z.end(), 0.0) != z.end()) continue;
+      if (depth_at(line, begin - around) == 0 || depth_at(line, begin + size - 1 + around) == 0)
+        continue;
       const Parabola::Fit fit = parabola.Through(z);
       const auto bend = ComputePlaneBend(fit);
       if (bend && *bend > 0.4 && *bend < 1.8) ++as_planes_;

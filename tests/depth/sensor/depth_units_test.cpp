@@ -337,6 +337,25 @@ TEST(DepthCensus, DoesNotSuspectAConcaveObjectInAConsistentRoom) {
   EXPECT_FALSE(Judged(room).has_value());
 }
 
+// The mean over 5 x 5 pixels, holes as 0.
+DepthFrame Smoothed(const DepthFrame& frame) {
+  constexpr int kReach = 2, kPixels = 25;
+  DepthFrame smooth = frame;
+  const DepthView image = frame.view();
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      int sum_mm = 0;
+      for (int i = 0; i < kPixels; ++i) {
+        const int x = u + i % 5 - kReach, y = v + i / 5 - kReach;
+        if (x >= 0 && y >= 0 && x < image.width && y < image.height) sum_mm += image.at(x, y);
+      }
+      smooth.depth_mm[static_cast<size_t>(v * image.width + u)] =
+          static_cast<uint16_t>(sum_mm / kPixels);
+    }
+  }
+  return smooth;
+}
+
 TEST(DepthUnits, RefusesInvertedCutOutsOfRenderedPeople) {
   for (const char* clip : {"one", "two"}) {
     const auto clips = test::SourceFolder() / "tests/golden/clips";
@@ -353,6 +372,25 @@ TEST(DepthUnits, RefusesInvertedCutOutsOfRenderedPeople) {
       WriteDepthPng(folder / name, TakenFrom(frame, most).view());
     }
     test::ExpectRefused([&] { OpenSource(folder.path().string()); }, "inverted:FROM reads them");
+  }
+}
+
+// Smoothing with holes as 0 bends surfaces at their edges as if they were inverted.
+TEST(DepthUnits, TakesSmoothedCutOutsOfRenderedPeople) {
+  for (const char* clip : {"one", "two"}) {
+    const auto clips = test::SourceFolder() / "tests/golden/clips";
+    const test::TemporaryFolder folder;
+    const auto source = OpenSource((clips / clip).string());
+    for (int i = 0; i < 3; ++i) {
+      DepthFrame frame = source->Read(std::chrono::seconds(1)).frame;
+      const std::string name = "00000" + std::to_string(i) + ".png";
+      const auto users = ReadLabelPng(clips / clip / "users" / name);
+      for (size_t k = 0; k < frame.depth_mm.size(); ++k) {
+        if (users.data[k] == 0) frame.depth_mm[k] = 0;
+      }
+      WriteDepthPng(folder / name, Smoothed(frame).view());
+    }
+    EXPECT_NO_THROW(OpenSource(folder.path().string())) << clip;
   }
 }
 
