@@ -103,7 +103,25 @@ void IndoorSceneRenderer::PlaceSensor(Random& random) {
   const double height_m = scenario_.close ? 1.45 : random.Uniform(0.7, 1.9);
   if (scenario_.still) distance_m_ = 3.0;
   const double aim_m = scenario_.close ? 1.4 : random.Uniform(0.8, 1.0);
-  camera_from_world_ = LookAt({0, height_m, distance_m_}, {0, aim_m, 0});
+  sensor_m_ = {0, height_m, distance_m_};
+  aim_m_ = {0, aim_m, 0};
+  camera_from_world_ = LookAt(sensor_m_, aim_m_);
+}
+
+// Like a sensor in somebody's hand: within three seconds it is carried to the left, to the right
+// and back, nearer and farther, and aimed beside the people.
+void IndoorSceneRenderer::MoveSensor(int64_t index) {
+  constexpr double kPeriod = 90;  // frames
+  const double phase_rad = 2 * std::numbers::pi * static_cast<double>(index) / kPeriod;
+  const double aside = std::sin(phase_rad), along = std::sin(0.7 * phase_rad);
+  camera_from_world_ =
+      LookAt(sensor_m_ + Vector3d(0.3 * aside, 0.05 * along, 0.25 * along),  // metres
+             aim_m_ + Vector3d(-0.4 * aside, 0.1 * along, 0));
+  for (const Thing& thing : things_)
+    renderer_.UpdateVertices(
+        thing.mesh,
+        depth::Moved(thing.mesh_m, Eigen::Affine3f(camera_from_world_.matrix().cast<float>()))
+            .vertices_m);
 }
 
 void IndoorSceneRenderer::PlacePeople(Random& random) {
@@ -171,7 +189,10 @@ void IndoorSceneRenderer::Stand(const depth::TriangleMesh& mesh, const Vector3d&
   Eigen::Affine3f place(camera_from_world_.matrix().cast<float>());
   place.translate(place_m.cast<float>());
   place.rotate(Eigen::AngleAxisf(static_cast<float>(turn_rad), Vector3f::UnitY()));
-  renderer_.AddMesh(depth::Moved(mesh, place), false);
+  const int id = renderer_.AddMesh(depth::Moved(mesh, place), inputs_.carried);
+  if (!inputs_.carried) return;
+  const Eigen::Affine3f world_from_camera(camera_from_world_.inverse().matrix().cast<float>());
+  things_.push_back({id, depth::Moved(mesh, world_from_camera * place)});
 }
 
 // A sofa or an armchair between person and sensor that hides at least the legs.
@@ -222,6 +243,7 @@ void IndoorSceneRenderer::Furnish(Random& random) {
 }
 
 LabelledFrame IndoorSceneRenderer::RenderFrame(int64_t index) {
+  if (inputs_.carried) MoveSensor(index);
   std::vector<TruthBody> bodies;
   for (size_t person = 0; person < bodies_.size(); ++person) {
     ClothedBody& body = bodies_[person];

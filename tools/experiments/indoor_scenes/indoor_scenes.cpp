@@ -142,7 +142,7 @@ struct SceneSettings {
   std::string only;  // part of a scenario's name
   Split split = Split::kTest;
   std::string method;
-  bool physics = true;
+  bool physics = true, carried = false;
 };
 
 SceneSettings ReadSettings(ExperimentContext& context) {
@@ -158,6 +158,7 @@ SceneSettings ReadSettings(ExperimentContext& context) {
   settings.method =
       parameters.OneOf("method", recon::ReconstructionMethods(), tracker::TrackerOptions().method);
   settings.physics = parameters.Flag("physics", true);
+  settings.carried = parameters.Flag("carried_sensor", false);
   return settings;
 }
 
@@ -182,8 +183,8 @@ std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
   const auto model = LoadFetchedBody();
   const recon::Wardrobe wardrobe(model);
   const int width = settings.width;
-  const IndoorSceneInputs inputs{model, wardrobe,      clips,          settings.split,
-                                 width, width * 3 / 4, settings.frames};
+  const IndoorSceneInputs inputs{model, wardrobe,      clips,           settings.split,
+                                 width, width * 3 / 4, settings.frames, settings.carried};
 
   const auto scenarios = IndoorScenarios();
   std::vector<Job> jobs;

@@ -45,6 +45,7 @@ struct IndoorSceneInputs {
   Split split = Split::kTest;  // of bodies
   int width = 640, height = 480;
   int64_t frames = 90;
+  bool carried = false;  // whether the sensor is carried around instead of standing still
 };
 
 /// One performance of a scenario: same scenario, inputs and seed, same frames.
@@ -61,6 +62,10 @@ class IndoorSceneRenderer {
     Eigen::Vector3d from_m, to_m;  // of the hips on the floor, at the first and last frame
     double heading_rad = 0;
   };
+  struct Thing {
+    int mesh;                    // id in the renderer
+    depth::TriangleMesh mesh_m;  // in the world
+  };
 
   void PlaceSensor(Random& random);
   void PlacePeople(Random& random);
@@ -70,13 +75,16 @@ class IndoorSceneRenderer {
   Way Crossing(int person, Random& random) const;
   recon::RigPose PoseAt(const Way& way, double root_scale, int64_t index) const;
   void Stand(const depth::TriangleMesh& mesh, const Eigen::Vector3d& place_m, double turn_rad);
+  void MoveSensor(int64_t index);
 
   IndoorScenario scenario_;
   IndoorSceneInputs inputs_;
   uint64_t seed_;
   depth::Camera camera_;
   Eigen::Isometry3d camera_from_world_;
-  double distance_m_ = 3;  // of the people's middle, which is the world's origin
+  Eigen::Vector3d sensor_m_, aim_m_;  // in the world, at first; what it is aimed at
+  double distance_m_ = 3;             // of the people's middle, which is the world's origin
+  std::vector<Thing> things_;         // if the sensor is carried
   std::vector<Way> ways_;
   std::vector<ClothedBody> bodies_;
   depth::Renderer renderer_;

@@ -12,6 +12,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/lower_case.h"
+#include "depth/image/camera_io.h"
 #include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
 #include "tools/experiments/compare/select_evenly.h"
@@ -252,10 +253,13 @@ RealVideo SeatedVideo(const fs::path& folder, int most) {
   return video;
 }
 
+// Stills of a Kinect v1, unless camera.json says otherwise.
 RealVideo StillsWithoutTruth(const fs::path& folder, int most) {
   RealVideo video{.name = folder.filename().string(), .frames = {}, .stills = true};
+  std::optional<depth::Camera> camera;
+  if (fs::exists(folder / "camera.json")) camera = depth::ReadCameraJson(folder / "camera.json");
   for (const fs::path& png : SelectEvenly(ListPngs(folder), ToLimit(most))) {
-    video.frames.push_back(ReadFrame(png, std::nullopt, 0.0));
+    video.frames.push_back(ReadFrame(png, camera, 0.0));
   }
   return video;
 }
