@@ -1,5 +1,7 @@
 #include "depth/scene/background.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ossa::depth {
@@ -11,9 +13,48 @@ bool SameSurface(float a_m, float b_m, float tolerance = 1.0F) {
   return std::abs(a_m - b_m) < tolerance * DepthTolerance(b_m);
 }
 
+bool IsNearer(float z_m, float before_m, const BackgroundOptions& options) {
+  return z_m < before_m - options.foreground_m - DepthTolerance(before_m);
+}
+
+// Whether surfaces of nobody are a little nearer than known ones in many parts of the image. Who
+// walks past is mostly farther in front of the room.
+bool IsNearerAllOver(const PointGrid& grid, const BackgroundState& state,
+                     const BackgroundOptions& options) {
+  constexpr int kAcross = 8, kDown = 6;     // blocks of the image, by hand
+  constexpr int kEnough = 50, kOneIn = 20;  // cells known, and one in this many nearer, by hand
+  constexpr int kFewBlocks = 24;            // no unit: fewer may be one person, by hand
+  constexpr float kLittle_m = 0.5F;         // by hand: a sensor moves less between two frames
+  struct Block {
+    int known = 0, nearer = 0;
+  };
+  std::array<Block, size_t{kAcross} * kDown> blocks{};
+  std::vector<size_t> column(static_cast<size_t>(grid.width));  // of blocks, by the cell's
+  for (size_t x = 0; x < column.size(); ++x) column[x] = x * kAcross / column.size();
+  for (int y = 0; y < grid.height; ++y) {
+    Block* const row = &blocks[static_cast<size_t>(y * kDown / grid.height) * kAcross];
+    for (int x = 0; x < grid.width; ++x) {
+      const int cell = grid.cell(x, y);
+      const auto n = static_cast<size_t>(cell);
+      if (!grid.valid(cell) || state.steady[n] == 0 || state.claimed[n]) continue;
+      Block& block = row[column[static_cast<size_t>(x)]];
+      const float z_m = grid.z(cell), before_m = state.surface_m[n];
+      ++block.known;
+      block.nearer += IsNearer(z_m, before_m, options) && z_m > before_m - kLittle_m ? 1 : 0;
+    }
+  }
+  const auto known =
+      std::ranges::count_if(blocks, [](const Block& b) { return b.known > kEnough; });
+  const auto nearer = std::ranges::count_if(
+      blocks, [](const Block& b) { return b.known > kEnough && b.nearer * kOneIn > b.known; });
+  return known >= kFewBlocks &&
+         static_cast<double>(nearer) > options.nearer_blocks * static_cast<double>(known);
+}
+
 bool SensorMoved(const PointGrid& grid, const BackgroundState& state,
                  const BackgroundOptions& options) {
   if (state.width != grid.width || state.height != grid.height) return false;
+  if (IsNearerAllOver(grid, state, options)) return true;
   int known = 0, moved = 0;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
@@ -43,14 +84,13 @@ std::vector<uint8_t> FindSurfacesSeenFor(int frames, const PointGrid& grid,
 }
 
 std::vector<uint8_t> FindForeground(const PointGrid& grid, const BackgroundState& state,
-                                    float clearly_m) {
+                                    const BackgroundOptions& options) {
   std::vector<uint8_t> foreground(static_cast<size_t>(grid.cells()), 0);
   if (state.width != grid.width || state.height != grid.height) return foreground;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
-    const float before_m = state.surface_m[n];
     const bool valid = grid.valid(i);
-    const bool nearer = grid.z(i) < before_m - clearly_m - DepthTolerance(before_m);
+    const bool nearer = IsNearer(grid.z(i), state.surface_m[n], options);
     foreground[n] = valid & (state.steady[n] > 0) & nearer;
   }
   return foreground;
@@ -67,9 +107,13 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
                      BackgroundState& state) {
   const auto cells = static_cast<size_t>(grid.cells());
   if (state.width != grid.width || state.height != grid.height) {
-    state = {grid.width, grid.height, std::vector<float>(cells, 0.0F),
-             std::vector<uint8_t>(cells, 0)};
+    state = {.width = grid.width,
+             .height = grid.height,
+             .surface_m = std::vector<float>(cells, 0.0F),
+             .steady = std::vector<uint8_t>(cells, 0),
+             .claimed = {}};
   }
+  state.claimed = claimed;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
     const float z = grid.farther(i) ? grid.max_depth_m : grid.z(i);
@@ -92,7 +136,7 @@ BackgroundMasks CompareWithBackground(const PointGrid& grid, const BackgroundSta
   return {FindSurfacesSeenFor(options.steady_frames, grid, state),
           FindSurfacesSeenFor(1, grid, state),
           FindSurfacesSeenFor(options.certain_frames, grid, state, options.certain_tolerance),
-          FindForeground(grid, state, options.foreground_m)};
+          FindForeground(grid, state, options)};
 }
 
 float MeasureForegroundArea_m2(const PointGrid& grid, const std::vector<int>& cells,

@@ -153,25 +153,29 @@ TEST(Background, IsResetWhenTheSensorMoves) {
   EXPECT_EQ(std::count(state.steady.begin(), state.steady.end(), 0), 40 * 30);
 }
 
-// A room whose walls meet in front of a sensor that is turned to the left by this angle; with
-// people.
-PointGrid TurnedBy(double yaw_rad, const std::vector<CapsulePose>& people = {}) {
+// A room whose walls meet in front of a sensor that is turned to the left by this angle, and so far
+// from them; with people.
+PointGrid TurnedBy(double yaw_rad, const std::vector<CapsulePose>& people = {},
+                   double wall_m = 3.0) {
   CapsuleScene scene;
   scene.people = people;
   for (const double wall_rad : {-0.7, 0.8}) {
     const double angle_rad = wall_rad + yaw_rad;
-    scene.planes.push_back({{std::sin(angle_rad), 0, -std::cos(angle_rad)}, 3.0});
+    scene.planes.push_back({{std::sin(angle_rad), 0, -std::cos(angle_rad)}, wall_m});
   }
   scene.planes.push_back({{0, 1, 0}, 1.0});
   return GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
 }
 
-// Whether a model that knows the room is kept when the sensor sees this.
-bool IsKept(const PointGrid& now) {
+// Whether a model that knows the room, with as many cells of people in it, is kept when the sensor
+// sees this.
+bool IsKept(const PointGrid& now, size_t claimed = 0) {
   BackgroundState state;
   const PointGrid before = TurnedBy(0);
-  const std::vector<uint8_t> nobody(static_cast<size_t>(before.cells()), 0);
-  for (int f = 0; f < 30; ++f) LearnBackground(before, nobody, state);
+  std::vector<uint8_t> of_people(static_cast<size_t>(before.cells()), 0);
+  for (int f = 0; f < 30; ++f) LearnBackground(before, of_people, state);
+  std::fill_n(of_people.begin(), claimed, uint8_t{1});
+  LearnBackground(before, of_people, state);
   ForgetIfSensorMoved(now, state);
   return state.width > 0;
 }
@@ -179,6 +183,17 @@ bool IsKept(const PointGrid& now) {
 // 5 degrees: a knock against a tripod.
 TEST(Background, IsForgottenWhenTheSensorIsTurnedByFiveDegrees) {
   for (const double yaw_rad : {-0.087, 0.087}) EXPECT_FALSE(IsKept(TurnedBy(yaw_rad))) << yaw_rad;
+}
+
+TEST(Background, IsForgottenWhenTheSensorApproachesTheWalls) {
+  EXPECT_TRUE(IsKept(TurnedBy(0, {}, 2.95)));
+  EXPECT_FALSE(IsKept(TurnedBy(0, {}, 2.6)));
+}
+
+// Where people are, nearer surfaces are theirs.
+TEST(Background, IsKeptWhenPeopleWhoFillTheImageApproach) {
+  const PointGrid now = TurnedBy(0, {}, 2.6);
+  EXPECT_TRUE(IsKept(now, static_cast<size_t>(now.cells()) * 2 / 3));
 }
 
 TEST(Background, IsKeptWhenPeopleCome) {

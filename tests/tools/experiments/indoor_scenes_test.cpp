@@ -10,6 +10,7 @@
 #include "tools/experiments/compare/metrics.h"
 #include "tools/experiments/indoor_scenes/indoor_scenes_internal.h"
 #include "tools/experiments/simulation/jobs.h"
+#include "tools/tracker/tracker.h"
 
 namespace ossa::tools {
 namespace {
@@ -56,6 +57,34 @@ TEST_F(InIndoorScenes, SameSeedGivesSameFramesWithAllPeople) {
   EXPECT_EQ(first.depth.depth_mm, again.depth.depth_mm);
   for (const int user : {1, 2})
     EXPECT_GT(std::count(first.users.data.begin(), first.users.data.end(), user), 200);
+}
+
+// At first a carried sensor is where a fixed one is; the person is still where the labels say.
+TEST_F(InIndoorScenes, CarriedSensorSeesTheSameRoomFromElsewhere) {
+  IndoorSceneInputs inputs = Inputs();
+  const IndoorScenario scenario{"one", 1, Furnishing::kFurnished};
+  IndoorSceneRenderer fixed(scenario, inputs, 3);
+  inputs.carried = true;
+  IndoorSceneRenderer carried(scenario, inputs, 3);
+  EXPECT_EQ(carried.RenderFrame(0).depth.depth_mm, fixed.RenderFrame(0).depth.depth_mm);
+  const LabelledFrame frame = carried.RenderFrame(3);
+  EXPECT_NE(frame.depth.depth_mm, fixed.RenderFrame(3).depth.depth_mm);
+  const Eigen::Vector3d spine_m = frame.bodies[0].joints_m[recon::Joint::kSpine];
+  const Eigen::Vector2d pixel = depth::Project(frame.depth.camera, spine_m);
+  EXPECT_EQ(frame.users.at(static_cast<int>(pixel.x()), static_cast<int>(pixel.y())), 1);
+}
+
+// Furniture that comes into view, or is seen from another place, has not walked in.
+TEST_F(InIndoorScenes, CarriedSensorInARoomWithoutPeopleFindsNobody) {
+  IndoorSceneInputs inputs = Inputs();
+  inputs.width = 640;
+  inputs.height = 480;
+  inputs.frames = 60;
+  inputs.carried = true;
+  IndoorSceneRenderer renderer({"nobody", 0, Furnishing::kFurnished}, inputs, 1000);
+  tracker::Tracker tracker;
+  for (int64_t f = 0; f < renderer.size(); ++f)
+    EXPECT_TRUE(tracker.Track(renderer.RenderFrame(f).depth).bodies.empty()) << f;
 }
 
 // Without the sofa the same seed has the same person before the same sensor.
