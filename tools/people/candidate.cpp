@@ -27,6 +27,16 @@ Decision DescribeRegion(const Region& region, Rule rule) {
   return decision;
 }
 
+namespace {
+
+bool IsAtTop(const Scene& scene, const Region& region) {
+  constexpr int kBorder = 3;  // cells, by hand: sensors leave rows out
+  const auto first = std::ranges::min_element(region.cells);
+  return first != region.cells.end() && *first < kBorder * scene.grid.width;
+}
+
+}  // namespace
+
 Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region piece, bool has_head,
                         int region_index, const CandidateOptions& options) {
   const auto& foreground = scene.background.foreground;
@@ -40,6 +50,7 @@ Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region piec
   candidate.occluded_share =
       depth::MeasureOccludedShare(scene.grid, scene.floor, piece, options.silhouette);
   candidate.region_index = region_index;
+  candidate.at_top = IsAtTop(scene, piece);
   candidate.region = std::move(piece);
   return candidate;
 }
@@ -68,6 +79,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     part.foreground_share = candidate.foreground_share;
     part.isolated = candidate.isolated;
     part.occluded_share = candidate.occluded_share;
+    part.at_top = IsAtTop(scene, piece);
     part.region = std::move(piece);
     pieces.push_back(std::move(part));
   }
@@ -93,6 +105,7 @@ Candidate MergeCandidates(const Scene& scene, const DepthFrame& frame, const Can
   whole.isolated = a.isolated && b.isolated;
   whole.occluded_share = of_a * a.occluded_share + (1 - of_a) * b.occluded_share;
   whole.region_index = a.region_index;
+  whole.at_top = a.at_top || b.at_top;
   return whole;
 }
 

@@ -19,6 +19,7 @@ struct Candidate {
   bool may_return = false;         // a lost track is expected near here
   bool recently_rejected = false;  // it had a low score in a recent frame
   bool has_head = false;           // a head was detected in it by shape
+  bool at_top = false;             // it reaches the image's upper border
   double flat_share = 0;           // share of its cells that lie on flat surface
   double foreground_share = 0;  // share of its cells in front of the known background; 0 where it
                                 // may be part of a tracked person

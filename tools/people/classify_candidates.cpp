@@ -91,13 +91,16 @@ std::vector<Detection> SplitAtHeads(const ClassificationInput& input, const Dete
   for (auto other = others; other != pieces.end(); ++other)
     decided.push_back(DescribeDetection(*other, Rule::kPieceLowScore, needed));
   pieces.erase(others, pieces.end());
-  for (Detection& piece : pieces) piece.is_piece = true;
+  // Of a new region in a known scene each is new: furniture, too, may seem to have two heads.
+  const bool may_be_people =
+      input.scene.fresh || whole.candidate.track >= 0 || IsForeground(whole.candidate);
+  for (Detection& piece : pieces) piece.is_piece = may_be_people;
   decided.push_back(DescribeDetection(whole, Rule::kSplitAtHeads, needed));
   return pieces;
 }
 
-bool PassesByPose(const Detection& detection, const InitiationOptions& options) {
-  return IsVerifiedByPose(detection) && detection.evidence.score >= options.person_by_pose_score;
+bool MayBeHalfByPose(const Detection& detection, const InitiationOptions& options) {
+  return IsVerifiedByPose(detection) && detection.evidence.score >= options.weak_by_pose_score;
 }
 
 // Two detections merged, if the network estimates the same joints for both.
@@ -107,7 +110,7 @@ std::optional<Detection> TryMergeBySamePose(const ClassificationInput& input, co
   const float apart_m = (a.candidate.region.mean_m - b.candidate.region.mean_m).norm();
   if (apart_m > options.pieces_m) return {};
   const InitiationOptions& initiation = input.options.initiation;
-  if (!PassesByPose(a, initiation) || !PassesByPose(b, initiation)) return {};
+  if (!MayBeHalfByPose(a, initiation) || !MayBeHalfByPose(b, initiation)) return {};
   if (MeasureDistance_m(*a.pose, *b.pose) > static_cast<double>(options.same_pose_m)) return {};
   const bool a_first = a.evidence.score >= b.evidence.score;
   Detection whole =

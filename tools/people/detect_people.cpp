@@ -146,10 +146,13 @@ bool NeedsSurfaceCheck(const Detection& detection, const InitiationOptions& opti
          (detection.verifier == Verifier::kForest && detection.score < options.confident_score);
 }
 
-bool IsPoorBodyFit(const ExplainedShares& fit, double person_score, bool beside_person,
+bool IsPoorBodyFit(const ExplainedShares& fit, const Detection& detection, bool beside_person,
                    const InitiationOptions& options) {
-  if (fit.score < options.min_fit_score) return true;
-  const double all = 0.5 * (fit.explained + fit.score) + options.person_score_weight * person_score;
+  const bool contested = detection.verifier == Verifier::kSurfaceFit;
+  if (fit.score < (contested ? options.min_fit_score_contested : options.min_fit_score))
+    return true;
+  const double all =
+      0.5 * (fit.explained + fit.score) + options.person_score_weight * detection.score;
   return beside_person && all < options.min_fit_score_beside_person;
 }
 

@@ -50,7 +50,7 @@ struct ExplainedShares {
 
 /// Whether the fitted body explains too little of a candidate that was accepted in a single frame.
 /// `beside_person`: the image contains another person without doubt.
-bool IsPoorBodyFit(const ExplainedShares& fit, double person_score, bool beside_person,
+bool IsPoorBodyFit(const ExplainedShares& fit, const Detection& detection, bool beside_person,
                    const InitiationOptions& options);
 
 /// Revokes the acceptance of a person in this frame: deletes their track and their user pixels.

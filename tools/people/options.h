@@ -220,8 +220,14 @@ struct InitiationOptions {
   // Hysteresis: of a track, so that a person who turns away is kept.
   double tracked_score = 0.25;
   // Where the pose network contributes (ComputeScoreWithPose), this replaces new_person_score and
-  // confident_score: 96 % of the people in rendered first frames pass, and 1 of 599 other objects.
-  double person_by_pose_score = 0.5;
+  // confident_score. docs/benchmarks/tracking.md has its choice.
+  double person_by_pose_score = 0.6;
+  // Less is enough for a track that never moved, and for each half of a divided person.
+  double weak_by_pose_score = 0.5;
+  // New, farther than this and at the image's upper border, where the head is cut off: of 14 such
+  // objects in real rooms 13 have less.
+  double cut_by_pose_score = 0.75;
+  float cut_beyond_m = 1.5F;
   // Where the forest alone is confident, a score with the network of at least this leaves the
   // decision to the surface fit: the network is less reliable for people near the camera and half
   // outside the image.
@@ -230,6 +236,9 @@ struct InitiationOptions {
   // confident_score: least share explained less the share seen through (recon::SurfaceFit::score).
   // Rendered and real dev stills: 1 of 16 such people has less, 14 of 16 such objects have.
   double min_fit_score = 0.5;
+  // If the forest and the network disagree (contested_score). On real furniture 18 of 20 such
+  // objects have less, on real people none of two; on rendered ones it is rare.
+  double min_fit_score_contested = 0.75;
   // Beside a person without doubt the threshold is higher: on the share explained less half of the
   // share seen through, plus the forest's score times person_score_weight. On rendered first frames
   // people have 0.945 and more, most coats on stands less than 0.94.

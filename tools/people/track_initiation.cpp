@@ -79,10 +79,10 @@ void UpdateTentative(const Detection& detection, double time_s, const Initiation
   track.was_foreground = track.was_foreground || detection.candidate.foreground_m2 > 0;
 }
 
-// The threshold for a track that never moved. Where the pose network contributes it is that of a
-// new person: somebody who was accepted by it and sits still stays accepted.
+// The threshold for a track that never moved. Where the pose network contributes it is lower:
+// somebody who was accepted by it and sits still stays accepted.
 double RequireOfStillTrack(const Detection& detection, const InitiationOptions& options) {
-  return IsVerifiedByPose(detection) ? options.person_by_pose_score : options.still_track_score;
+  return IsVerifiedByPose(detection) ? options.weak_by_pose_score : options.still_track_score;
 }
 
 // A track continues by its mean score. The threshold is higher for young tracks, which may be
@@ -109,6 +109,14 @@ Decision DecideTracked(const Detection& detection, double time_s, const Initiati
   return DescribeDetection(detection, Rule::kTrackLowScore, needed);
 }
 
+// The threshold for a new person where the pose network contributes. A strip of wall under the
+// image's upper border resembles a body whose head is outside.
+double RequireByPose(const Detection& detection, const InitiationOptions& options) {
+  const Candidate& candidate = detection.candidate;
+  const bool cut = candidate.at_top && candidate.region.mean_m.z() > options.cut_beyond_m;
+  return cut ? options.cut_by_pose_score : options.person_by_pose_score;
+}
+
 struct Requirement {
   Rule rule;
   double score;
@@ -123,7 +131,7 @@ Requirement RequireInFirstFrame(const Detection& detection, bool fresh_scene,
   if (candidate.may_return) return {Rule::kReturning, options.new_person_score};
   if (detection.is_joined) return {Rule::kJoinedPieces, options.person_by_pose_score};
   if (fresh_scene && IsVerifiedByPose(detection))
-    return {Rule::kFreshScene, options.person_by_pose_score};
+    return {Rule::kFreshScene, RequireByPose(detection, options)};
   if (fresh_scene)
     return {Rule::kFreshScene,
             candidate.has_head ? options.new_person_score : options.confident_score};
@@ -141,7 +149,8 @@ double RequireOnAverage(const TentativeTrack& track, const Detection& detection,
     return options.walked_score;
   if (little_seen && track.moved) return options.foreground_mean_score;
   if (!track.moved)
-    return IsVerifiedByPose(detection) ? options.person_by_pose_score : options.confident_score;
+    return IsVerifiedByPose(detection) ? RequireByPose(detection, options)
+                                       : options.confident_score;
   // A surface that grows without being foreground may be uncovered by a person who passes.
   const bool doubtful = track.was_rejected || !track.was_foreground;
   return doubtful ? options.doubtful_mean_score : options.new_person_score;
@@ -159,7 +168,7 @@ Decision DescribeTentative(const Detection& detection, const TentativeTrack& tra
 // Segments around heads must each score like a person.
 Decision DecidePiece(const Detection& piece, const InitiationOptions& options) {
   const double needed =
-      IsVerifiedByPose(piece) ? options.person_by_pose_score : options.new_person_score;
+      IsVerifiedByPose(piece) ? RequireByPose(piece, options) : options.new_person_score;
   const bool passes = piece.score >= needed;
   return DescribeDetection(piece, passes ? Rule::kPieceWithHead : Rule::kPieceLowScore, needed);
 }

@@ -183,7 +183,7 @@ void Tracker::Impl::WithdrawUnlikeBodies(const std::vector<people::Person>& seen
     const Body& body = result.bodies[i];
     if (!body.fit || !needs_check(seen[i])) continue;
     const people::ExplainedShares fit{body.fit->explained, body.fit->score};
-    if (!people::IsPoorBodyFit(fit, body.person_score, has_certain_person, initiation)) continue;
+    if (!people::IsPoorBodyFit(fit, seen[i].detection, has_certain_person, initiation)) continue;
     ClearParts(body.id, result);
     people::WithdrawPerson(seen[i], result.time_s, people_state, result.users, result.decisions);
     persons.erase(body.id);

@@ -134,14 +134,30 @@ TEST_F(Halves, OfALeaningPersonAreStackedIfBothScoreLikePeople) {
   EXPECT_FALSE(AreStacked(scene_, options_, upper_, lower_));
 }
 
+Detection DetectionOf(double score, Verifier verifier = Verifier::kForest) {
+  Detection detection;
+  detection.score = score;
+  detection.verifier = verifier;
+  return detection;
+}
+
 // Shares as of people and of coats on stands in rendered rooms.
 TEST(IsPoorBodyFit, ThresholdIsHigherBesideAPerson) {
   const InitiationOptions options;
   const ExplainedShares coat{0.71, 0.58}, person{0.93, 0.89}, cupboard{0.46, 0.2};
-  EXPECT_FALSE(IsPoorBodyFit(coat, 0.87, false, options));
-  EXPECT_TRUE(IsPoorBodyFit(coat, 0.87, true, options));
-  EXPECT_FALSE(IsPoorBodyFit(person, 0.9, true, options));
-  EXPECT_TRUE(IsPoorBodyFit(cupboard, 0.9, false, options));
+  EXPECT_FALSE(IsPoorBodyFit(coat, DetectionOf(0.87), false, options));
+  EXPECT_TRUE(IsPoorBodyFit(coat, DetectionOf(0.87), true, options));
+  EXPECT_FALSE(IsPoorBodyFit(person, DetectionOf(0.9), true, options));
+  EXPECT_TRUE(IsPoorBodyFit(cupboard, DetectionOf(0.9), false, options));
+}
+
+// Shares as of a man at a desk, and of a lamp behind one.
+TEST(IsPoorBodyFit, ThresholdIsHigherWhereTheNetworkDisagrees) {
+  const InitiationOptions options;
+  const ExplainedShares man{0.91, 0.83}, lamp{0.82, 0.63};
+  EXPECT_FALSE(IsPoorBodyFit(man, DetectionOf(0.97, Verifier::kSurfaceFit), false, options));
+  EXPECT_TRUE(IsPoorBodyFit(lamp, DetectionOf(0.97, Verifier::kSurfaceFit), false, options));
+  EXPECT_FALSE(IsPoorBodyFit(lamp, DetectionOf(0.9), false, options));
 }
 
 TEST(MayBeTwoPeople, ALongLivedTrackIsNotSplitWhileItsSurfaceDoesNotGrow) {

@@ -86,13 +86,13 @@ TEST_F(NewPerson, PoseNetworkDecidesIfItWasRun) {
     return Observation{
         .score = score, .has_head = has_head, .verifier = Verifier::kForestAndNetwork};
   };
-  EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.45, true); }), -1);
-  EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.55, false); }), 0);
-  EXPECT_EQ(AcceptedIn(60, false, [&](int) { return by_pose(0.45, true); }), -1);
-  EXPECT_EQ(AcceptedIn(3, false, [&](int) { return by_pose(0.55, false); }), 2);
+  EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.55, true); }), -1);
+  EXPECT_EQ(AcceptedIn(1, true, [&](int) { return by_pose(0.65, false); }), 0);
+  EXPECT_EQ(AcceptedIn(60, false, [&](int) { return by_pose(0.55, true); }), -1);
+  EXPECT_EQ(AcceptedIn(3, false, [&](int) { return by_pose(0.65, false); }), 2);
   // The surface fit is not needed, unless the forest is confident and the network is not.
   std::vector<TentativeTrack> tentative;
-  Detection detection = Detect(by_pose(0.55, true));
+  Detection detection = Detect(by_pose(0.65, true));
   EXPECT_TRUE(DecidePerson(true, 0.0, options_, tentative, detection));
   EXPECT_FALSE(NeedsSurfaceCheck(detection, options_));
   Detection contested = Detect(Observation{0.97});
@@ -111,9 +111,9 @@ TEST_F(NewPerson, PieceIsAPersonUnlessThePoseNetworkRejectsIt) {
     return is_person;
   };
   EXPECT_TRUE(is_one({.score = 0.65}));
-  EXPECT_TRUE(is_one({.score = 0.55, .verifier = Verifier::kForestAndNetwork}));
+  EXPECT_TRUE(is_one({.score = 0.65, .verifier = Verifier::kForestAndNetwork}));
   EXPECT_EQ(rule_, Rule::kPieceWithHead);
-  EXPECT_FALSE(is_one({.score = 0.45, .verifier = Verifier::kForestAndNetwork}));
+  EXPECT_FALSE(is_one({.score = 0.55, .verifier = Verifier::kForestAndNetwork}));
   EXPECT_EQ(rule_, Rule::kPieceLowScore);
 }
 
@@ -208,7 +208,7 @@ TEST_F(NewPerson, ThresholdFallsWithAgeUnlessThePersonNeverMoved) {
 TEST_F(NewPerson, AcceptedByThePoseNetworkGoesOnByItsThresholdWithoutMoving) {
   for (const auto& [verifier, needed] :
        {std::pair(Verifier::kForest, options_.still_track_score),
-        std::pair(Verifier::kForestAndNetwork, options_.person_by_pose_score)}) {
+        std::pair(Verifier::kForestAndNetwork, options_.weak_by_pose_score)}) {
     std::vector<TentativeTrack> tentative;
     Detection detection = Detect({.score = 0.6, .verifier = verifier});
     detection.age = options_.still_age + 1;
@@ -430,6 +430,21 @@ TEST_F(NewPerson, ContestedIsVerifiedByTheSurfaceAfterSeveralFrames) {
     EXPECT_EQ(NeedsSurfaceCheck(contested, options_), is_accepted);
   }
   EXPECT_TRUE(is_accepted);
+}
+
+// A strip of wall under the upper border resembles somebody whose head is outside; near the sensor
+// a person's head often is.
+TEST_F(NewPerson, FarAtTheUpperBorderNeedsAHigherScore) {
+  const double between = 0.5 * (options_.person_by_pose_score + options_.cut_by_pose_score);
+  for (const auto& [at_top, z_m, passes] :
+       {std::tuple(false, 3.0F, true), std::tuple(true, 3.0F, false),
+        std::tuple(true, 1.0F, true)}) {
+    std::vector<TentativeTrack> tentative;
+    Detection detection = Detect({.score = between, .verifier = Verifier::kForestAndNetwork});
+    detection.candidate.at_top = at_top;
+    detection.candidate.region.mean_m.z() = z_m;
+    EXPECT_EQ(DecidePerson(true, 0.0, options_, tentative, detection), passes) << at_top << z_m;
+  }
 }
 
 // A person accepted in the same frame keeps their id, and the next one has another.
