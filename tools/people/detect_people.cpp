@@ -148,7 +148,8 @@ bool NeedsSurfaceCheck(const Detection& detection, const InitiationOptions& opti
 
 bool IsPoorBodyFit(const ExplainedShares& fit, const Detection& detection, bool beside_person,
                    const InitiationOptions& options) {
-  const bool contested = detection.verifier == Verifier::kSurfaceFit;
+  const bool contested = detection.verifier == Verifier::kSurfaceFit &&
+                         detection.candidate.region.mean_m.z() > options.contested_beyond_m;
   if (fit.score < (contested ? options.min_fit_score_contested : options.min_fit_score))
     return true;
   const double all =

@@ -236,9 +236,11 @@ struct InitiationOptions {
   // confident_score: least share explained less the share seen through (recon::SurfaceFit::score).
   // Rendered and real dev stills: 1 of 16 such people has less, 14 of 16 such objects have.
   double min_fit_score = 0.5;
-  // If the forest and the network disagree (contested_score). On real furniture 18 of 20 such
-  // objects have less, on real people none of two; on rendered ones it is rare.
+  // If the forest and the network disagree (contested_score), farther than contested_beyond_m:
+  // nearer, much of a person is outside the image. On real furniture 18 of 20 such objects have
+  // less, on real people two of five.
   double min_fit_score_contested = 0.75;
+  float contested_beyond_m = 1.2F;  // by hand: where a Kinect v1 sees a trunk and a head
   // Beside a person without doubt the threshold is higher: on the share explained less half of the
   // share seen through, plus the forest's score times person_score_weight. On rendered first frames
   // people have 0.945 and more, most coats on stands less than 0.94.

@@ -134,9 +134,10 @@ TEST_F(Halves, OfALeaningPersonAreStackedIfBothScoreLikePeople) {
   EXPECT_FALSE(AreStacked(scene_, options_, upper_, lower_));
 }
 
-Detection DetectionOf(double score, Verifier verifier = Verifier::kForest) {
+Detection DetectionOf(double score, Verifier verifier = Verifier::kForest, float z_m = 2.0F) {
   Detection detection;
   detection.score = score;
+  detection.candidate.region.mean_m.z() = z_m;
   detection.verifier = verifier;
   return detection;
 }
@@ -158,6 +159,9 @@ TEST(IsPoorBodyFit, ThresholdIsHigherWhereTheNetworkDisagrees) {
   EXPECT_FALSE(IsPoorBodyFit(man, DetectionOf(0.97, Verifier::kSurfaceFit), false, options));
   EXPECT_TRUE(IsPoorBodyFit(lamp, DetectionOf(0.97, Verifier::kSurfaceFit), false, options));
   EXPECT_FALSE(IsPoorBodyFit(lamp, DetectionOf(0.9), false, options));
+  // Near the sensor much of a person is outside the image.
+  const Detection near = DetectionOf(0.97, Verifier::kSurfaceFit, 0.8F);
+  EXPECT_FALSE(IsPoorBodyFit(lamp, near, false, options));
 }
 
 TEST(MayBeTwoPeople, ALongLivedTrackIsNotSplitWhileItsSurfaceDoesNotGrow) {
