@@ -337,11 +337,17 @@ TEST(DepthCensus, DoesNotSuspectAConcaveObjectInAConsistentRoom) {
   EXPECT_FALSE(Judged(room).has_value());
 }
 
-// The mean over 5 x 5 pixels, holes as 0.
-DepthFrame Smoothed(const DepthFrame& frame) {
-  constexpr int kReach = 2, kPixels = 25;
-  DepthFrame smooth = frame;
-  const DepthView image = frame.view();
+// Three times as large, and of each pixel the mean over 5 x 5, holes as 0.
+DepthFrame EnlargedAndSmoothed(const DepthFrame& frame) {
+  constexpr int kReach = 2, kPixels = 25, kTimes = 3;
+  DepthFrame large;
+  large.camera = KinectV1Camera(kTimes * frame.camera.width, kTimes * frame.camera.height);
+  for (int v = 0; v < large.camera.height; ++v) {
+    for (int u = 0; u < large.camera.width; ++u)
+      large.depth_mm.push_back(frame.view().at(u / kTimes, v / kTimes));
+  }
+  DepthFrame smooth = large;
+  const DepthView image = large.view();
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u) {
       int sum_mm = 0;
@@ -356,40 +362,39 @@ DepthFrame Smoothed(const DepthFrame& frame) {
   return smooth;
 }
 
+// Three frames of a golden clip with its users alone, changed, in a folder.
+template <typename Change>
+void WriteCutOuts(const std::string& clip, const std::filesystem::path& folder,
+                  const Change& change) {
+  const auto clips = test::SourceFolder() / "tests/golden/clips";
+  const auto source = OpenSource((clips / clip).string());
+  for (int i = 0; i < 3; ++i) {
+    DepthFrame frame = source->Read(std::chrono::seconds(1)).frame;
+    const std::string name = "00000" + std::to_string(i) + ".png";
+    const auto users = ReadLabelPng(clips / clip / "users" / name);
+    for (size_t k = 0; k < frame.depth_mm.size(); ++k) {
+      if (users.data[k] == 0) frame.depth_mm[k] = 0;
+    }
+    WriteDepthPng(folder / name, change(frame).view());
+  }
+}
+
 TEST(DepthUnits, RefusesInvertedCutOutsOfRenderedPeople) {
   for (const char* clip : {"one", "two"}) {
-    const auto clips = test::SourceFolder() / "tests/golden/clips";
     const test::TemporaryFolder folder;
-    const auto source = OpenSource((clips / clip).string());
-    for (int i = 0; i < 3; ++i) {
-      DepthFrame frame = source->Read(std::chrono::seconds(1)).frame;
-      const std::string name = "00000" + std::to_string(i) + ".png";
-      const auto users = ReadLabelPng(clips / clip / "users" / name);
-      for (size_t k = 0; k < frame.depth_mm.size(); ++k) {
-        if (users.data[k] == 0) frame.depth_mm[k] = 0;
-      }
-      const int most = NearestAndFarthest(frame).second;
-      WriteDepthPng(folder / name, TakenFrom(frame, most).view());
-    }
+    WriteCutOuts(clip, folder.path(), [](const DepthFrame& frame) {
+      return TakenFrom(frame, NearestAndFarthest(frame).second);
+    });
     test::ExpectRefused([&] { OpenSource(folder.path().string()); }, "inverted:FROM reads them");
   }
 }
 
-// Smoothing with holes as 0 bends surfaces at their edges as if they were inverted.
+// Programs that align depth to larger colour images smooth it. With holes as 0 this bends surfaces
+// at their edges as if they were inverted.
 TEST(DepthUnits, TakesSmoothedCutOutsOfRenderedPeople) {
   for (const char* clip : {"one", "two"}) {
-    const auto clips = test::SourceFolder() / "tests/golden/clips";
     const test::TemporaryFolder folder;
-    const auto source = OpenSource((clips / clip).string());
-    for (int i = 0; i < 3; ++i) {
-      DepthFrame frame = source->Read(std::chrono::seconds(1)).frame;
-      const std::string name = "00000" + std::to_string(i) + ".png";
-      const auto users = ReadLabelPng(clips / clip / "users" / name);
-      for (size_t k = 0; k < frame.depth_mm.size(); ++k) {
-        if (users.data[k] == 0) frame.depth_mm[k] = 0;
-      }
-      WriteDepthPng(folder / name, Smoothed(frame).view());
-    }
+    WriteCutOuts(clip, folder.path(), EnlargedAndSmoothed);
     EXPECT_NO_THROW(OpenSource(folder.path().string())) << clip;
   }
 }
