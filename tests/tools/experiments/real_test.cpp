@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "depth/base/error.h"
+#include "depth/image/camera_io.h"
 #include "depth/image/depth_png.h"
 #include "tests/support/places.h"
 #include "tests/support/refused.h"
@@ -60,6 +61,15 @@ TEST(RealSets, FoldersWithoutMarksAreRecordingsWithoutTruth) {
   ASSERT_EQ(videos.size(), 1u);
   EXPECT_TRUE(videos[0].stills);
   EXPECT_EQ(videos[0].frames.size(), 1u);
+}
+
+TEST(RealSets, FoldersWithoutMarksMayStateTheirCamera) {
+  const SharedWithMarks shared;
+  const depth::Camera before = ReadRealVideos(shared.path(), 1)[0].frames[0].camera;
+  depth::Camera stated = before;
+  stated.fx = stated.fy = 2.0 * before.fx;
+  depth::WriteCameraJson(shared.set() / "camera.json", stated);
+  EXPECT_EQ(ReadRealVideos(shared.path(), 1)[0].frames[0].camera.fx, 2.0 * before.fx);
 }
 
 // Four stills of a set of one joint, whose errors along x are given; the last finds nothing.
