@@ -26,8 +26,8 @@ struct BackgroundOptions {
   /// there, 3 % in a real recording at 10 Hz.
   double moved_share = 0.05;
   /// Share of the image's blocks, in (0, 1], where surfaces of nobody are a little nearer than
-  /// before if the sensor is being carried. With a fixed sensor rooms of one to six people are
-  /// tracked as without this test (docs/benchmarks/tracking.md).
+  /// before if the sensor is being carried. With a fixed sensor as many people are found in
+  /// rooms of one to six as without this test (docs/benchmarks/tracking.md).
   double nearer_blocks = 0.2;
   /// Frames after which a surface is certainly unchanged, in [1, 250].
   int certain_frames = 3;
