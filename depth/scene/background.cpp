@@ -133,10 +133,16 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
 
 BackgroundMasks CompareWithBackground(const PointGrid& grid, const BackgroundState& state,
                                       const BackgroundOptions& options) {
-  return {FindSurfacesSeenFor(options.steady_frames, grid, state),
-          FindSurfacesSeenFor(1, grid, state),
-          FindSurfacesSeenFor(options.certain_frames, grid, state, options.certain_tolerance),
-          FindForeground(grid, state, options)};
+  BackgroundMasks masks{
+      FindSurfacesSeenFor(options.steady_frames, grid, state), FindSurfacesSeenFor(1, grid, state),
+      FindSurfacesSeenFor(options.certain_frames, grid, state, options.certain_tolerance),
+      FindForeground(grid, state, options)};
+  const auto measured = std::ranges::count_if(
+      grid.point_m, [](const Eigen::Vector3f& point_m) { return point_m.z() > 0; });
+  const auto certain = std::ranges::count(masks.certain, uint8_t{1});
+  masks.certain_share =
+      static_cast<double>(certain) / static_cast<double>(std::max<long>(1, measured));
+  return masks;
 }
 
 float MeasureForegroundArea_m2(const PointGrid& grid, const std::vector<int>& cells,

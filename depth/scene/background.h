@@ -52,6 +52,7 @@ struct BackgroundMasks {
   std::vector<uint8_t> known;       // the unclaimed surface of the frame before
   std::vector<uint8_t> certain;     // the same for `certain_frames`, within little more than noise
   std::vector<uint8_t> foreground;  // clearly in front of a known surface: it has moved here
+  double certain_share = 0;         // of the measured cells, [0, 1]
 };
 BackgroundMasks CompareWithBackground(const PointGrid& grid, const BackgroundState& state,
                                       const BackgroundOptions& options = {});

@@ -209,6 +209,7 @@ std::vector<int> RewindTracks(double time_s, std::vector<Track>& tracks) {
     const double back_s = track.last_seen_s - time_s;
     track.moved_s -= back_s;
     track.facing_s -= back_s;
+    track.certain_until_s -= back_s;
     track.last_seen_s = time_s;
     if (back_s >= recon::FrameSteps::kJitter_s) ids.push_back(track.id);
   }

@@ -47,6 +47,8 @@ Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region piec
   candidate.plane = FitWholePlane(piece, scene.surfaces, options.occluder);
   candidate.foreground_share = MeasureShare(piece, foreground);
   candidate.foreground_m2 = MeasureForegroundArea_m2(scene.grid, piece.cells, foreground);
+  if (scene.background.certain_share > kMajority)
+    candidate.background_share = MeasureShare(piece, scene.background.certain);
   candidate.occluded_share =
       depth::MeasureOccludedShare(scene.grid, scene.floor, piece, options.silhouette);
   candidate.region_index = region_index;
@@ -77,6 +79,7 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     part.region_index = candidate.region_index;
     part.flat_share = candidate.flat_share;
     part.foreground_share = candidate.foreground_share;
+    part.background_share = candidate.background_share;
     part.isolated = candidate.isolated;
     part.occluded_share = candidate.occluded_share;
     part.at_top = IsAtTop(scene, piece);
@@ -101,6 +104,7 @@ Candidate MergeCandidates(const Scene& scene, const DepthFrame& frame, const Can
   whole.flat_share = of_a * a.flat_share + (1 - of_a) * b.flat_share;
   whole.foreground_share = of_a * a.foreground_share + (1 - of_a) * b.foreground_share;
   whole.foreground_m2 = a.foreground_m2 + b.foreground_m2;
+  whole.background_share = of_a * a.background_share + (1 - of_a) * b.background_share;
   whole.may_return = a.may_return || b.may_return;
   whole.isolated = a.isolated && b.isolated;
   whole.occluded_share = of_a * a.occluded_share + (1 - of_a) * b.occluded_share;

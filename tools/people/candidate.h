@@ -24,6 +24,8 @@ struct Candidate {
   double foreground_share = 0;  // share of its cells in front of the known background; 0 where it
                                 // may be part of a tracked person
   float foreground_m2 = 0;      // surface in front of the background, without its rims
+  double background_share = 1;  // share of its cells that are certainly unchanged background; 1
+                                // where the scene is not known
   bool isolated = true;         // no tracked person is beside it
   double occluded_share = 0;    // share of its silhouette beyond which a part may be occluded
   int region_index = -1;        // of the connected region that contains it

@@ -17,6 +17,7 @@ struct TrackPrior {
   int age = 0;                  // detections so far
   bool moved = false;           // since it was first seen
   bool moving = false;          // recently
+  bool certain = false;         // a person for sure not long ago
   float full_m2 = 0;            // largest recent visible surface
 };
 TrackPrior MakeTrackPrior(const Candidate& candidate, const std::vector<Track>& tracks,

@@ -127,6 +127,10 @@ struct PredictionOptions {
   size_t overlap_fraction = 4;    // a track needs an overlap of 1 / this of its or the candidate's
                                   // cells
   double in_plane_share = 0.33;   // of a track's cells in the plane of furniture; more are a person
+  // Anthropometry: the middle of who lies or sits on the floor is below this height; from it to
+  // head or feet, and a step.
+  double lying_below_m = 0.5;
+  float lying_reach_m = 1.2F;
   float return_gate_m = 0.6F;     // a step: from the predicted place of a lost track,
   float return_speed_m_s = 0.7F;  // ... growing with time
   float height_weight = 0.3F;     // of the vertical offset: occlusion changes the centroid's height
@@ -139,6 +143,7 @@ struct CandidateOptions {
   size_t min_cells = 30;
   // Of foreground: a head above a nearer person.
   float min_foreground_area_m2 = 0.045F, min_foreground_height_m = 0.2F;
+  float min_rest_area_m2 = 0.03F;  // anthropometry: a face; of a person for sure
   // A new candidate may be part of a tracked person: horizontally, from the track's predicted
   // centroid and from the nearest side of its segment.
   float same_person_m = 0.45F, beside_person_m = 0.7F;
@@ -256,6 +261,9 @@ struct InitiationOptions {
   // Isolated foreground that walked this far since its first observation: only people walk.
   double walked_m = 0.5;       // anthropometry: less than a step
   double walked_score = 0.02;  // score
+  // Who was a person for sure (AssociationOptions::certain_s) stays one, whatever the score, while
+  // more than this share of their surface is foreground, or less than this share is the known room.
+  double rest_foreground_share = 0.2, rest_background_share = 0.3;
   // A track this young: a chance detection of another object has a low mean.
   double early_track_score = 0.4;  // score
   int early_age = 12;              // detections
@@ -329,6 +337,11 @@ struct AssociationOptions {
   double rival_log_odds = 1;    // log-odds against an unconfirmed candidate being a lost track
   double max_rival_taken_share = 0.1;  // share of a rival's cells that people may hold
   double keep_cells_s = 0.2;           // age of a lost track's cells when they are deleted
+  // A track of this age, in detections, with this mean score is a person for sure, for this time:
+  // long enough to lie on the floor or deep in a sofa, where people hardly score.
+  int certain_age = 12;
+  double certain_score = 0.75;
+  double certain_s = 30.0;
   MotionOptions motion;
   ReidentifyOptions reidentify;
 };

@@ -22,20 +22,43 @@ struct CellMasks {
   std::vector<uint8_t> ignored;     // floor, furniture, walls, unchanged background
 };
 
-// Somebody beside a cupboard may get into the plane of its front. They do not become a part of it.
-void KeepTracksInPlane(const Scene& scene, size_t tracks, const PredictionOptions& options,
-                       CellMasks& masks) {
-  const std::vector<uint8_t>& in_plane = scene.surfaces.in_plane;
-  std::vector<double> cells(tracks, 0.0), of_plane(tracks, 0.0);
-  for (size_t i = 0; i < in_plane.size(); ++i) {
+// Somebody beside a cupboard may get into the plane of its front, and a plane may grow over
+// somebody flat and close to a wall. They do not become a part of it.
+void KeepTracksInPlane(const Scene& scene, const std::vector<Track>& tracks, double time_s,
+                       const PredictionOptions& options, CellMasks& masks) {
+  const depth::RoomShape& shape = scene.surfaces;
+  const auto may_keep = [&](size_t cell) {
+    if (masks.owner[cell] < 0 || !shape.room[cell] || shape.floor[cell]) return false;
+    const Track& track = tracks[static_cast<size_t>(masks.owner[cell])];
+    return shape.in_plane[cell] || time_s < track.certain_until_s;
+  };
+  std::vector<double> cells(tracks.size(), 0.0), of_plane(tracks.size(), 0.0);
+  for (size_t i = 0; i < masks.owner.size(); ++i) {
     if (masks.owner[i] < 0) continue;
     cells[static_cast<size_t>(masks.owner[i])] += 1.0;
-    of_plane[static_cast<size_t>(masks.owner[i])] += in_plane[i] ? 1.0 : 0.0;
+    of_plane[static_cast<size_t>(masks.owner[i])] += may_keep(i) ? 1.0 : 0.0;
   }
-  for (size_t i = 0; i < in_plane.size(); ++i) {
-    if (!in_plane[i] || masks.owner[i] < 0) continue;
+  for (size_t i = 0; i < masks.owner.size(); ++i) {
+    if (!may_keep(i)) continue;
     const auto track = static_cast<size_t>(masks.owner[i]);
     if (of_plane[track] > options.in_plane_share * cells[track]) masks.ignored[i] = 0;
+  }
+}
+
+// A wall does not come nearer: what stands out from the known room beside somebody on the floor is
+// theirs, even in the plane of a wall that they lie along.
+void KeepLying(const Scene& scene, const std::vector<Track>& tracks, double time_s,
+               const PredictionOptions& options, CellMasks& masks) {
+  if (!scene.floor) return;
+  for (const Track& track : tracks) {
+    const Vector3f mean_m = PredictMean_m(track, time_s, options.max_prediction_s);
+    const bool is_low = scene.floor->HeightOf(mean_m.cast<double>()) < options.lying_below_m;
+    if (!is_low || time_s >= track.certain_until_s) continue;
+    for (size_t i = 0; i < masks.ignored.size(); ++i) {
+      if (!scene.background.foreground[i] || scene.surfaces.floor[i]) continue;
+      const Vector3f off_m = scene.grid.at(static_cast<int>(i)) - mean_m;
+      if (scene.grid.OnFloor(off_m).norm() < options.lying_reach_m) masks.ignored[i] = 0;
+    }
   }
 }
 
@@ -46,7 +69,8 @@ CellMasks MakeCellMasks(const Scene& scene, const std::vector<Track>& tracks, do
   masks.ignored = scene.surfaces.room;
   for (size_t i = 0; i < masks.ignored.size(); ++i)
     masks.ignored[i] |= scene.background.steady[i] && masks.owner[i] < 0;
-  KeepTracksInPlane(scene, tracks.size(), options, masks);
+  KeepLying(scene, tracks, time_s, options, masks);
+  KeepTracksInPlane(scene, tracks, time_s, options, masks);
   return masks;
 }
 
@@ -100,13 +124,22 @@ Region RemoveWalls(const Scene& scene, Region piece, std::span<const HeadBlob> h
   return piece;
 }
 
+// Whether a region is what is left to see of somebody who lies on the floor or behind something.
+bool IsRestOfPerson(const Region& region, const CellMasks& masks, const std::vector<Track>& tracks,
+                    double time_s, const CandidateOptions& options) {
+  if (region.area_m2 < options.min_rest_area_m2) return false;
+  const int owner = FindMainOwner(region, masks.owner, tracks.size());
+  return owner >= 0 && time_s < tracks[static_cast<size_t>(owner)].certain_until_s;
+}
+
 // Splits a connected region into segments that may be one person each.
 void SplitIntoCandidates(const DepthFrame& frame, const Scene& scene, const CellMasks& masks,
-                         size_t tracks, const Region& region, int region_index,
+                         const std::vector<Track>& tracks, const Region& region, int region_index,
                          const CandidateOptions& options, Candidates& result) {
   const auto is_large_enough = [&](const Region& r) {
     return IsPersonSized(r, options) ||
-           IsForegroundPersonSized(r, scene.background.foreground, options);
+           IsForegroundPersonSized(r, scene.background.foreground, options) ||
+           IsRestOfPerson(r, masks, tracks, frame.time_s, options);
   };
   if (!is_large_enough(region)) {
     result.excluded.push_back(DescribeRegion(region, Rule::kTooSmall));
@@ -114,7 +147,7 @@ void SplitIntoCandidates(const DepthFrame& frame, const Scene& scene, const Cell
   }
   const std::vector<HeadBlob> heads = ListHeads(scene, region, options);
   const auto seeds =
-      FindSeeds(scene.grid, region, heads, masks.owner, tracks, masks.background, options);
+      FindSeeds(scene.grid, region, heads, masks.owner, tracks.size(), masks.background, options);
   for (Region& piece : CutAtSeeds(scene.grid, region, seeds, options)) {
     if (options.overhead) piece = RemoveWalls(scene, std::move(piece), heads, *options.overhead);
     if (!is_large_enough(piece)) {
@@ -220,8 +253,8 @@ Candidates ProposeCandidates(const DepthFrame& frame, const Scene& scene,
   KeepTracksOutOfBackground(scene, tracks, masks);
   Candidates result;
   for (size_t r = 0; r < regions.size(); ++r) {
-    SplitIntoCandidates(frame, scene, masks, tracks.size(), regions[r], static_cast<int>(r),
-                        options, result);
+    SplitIntoCandidates(frame, scene, masks, tracks, regions[r], static_cast<int>(r), options,
+                        result);
   }
   std::vector<Candidate>& candidates = result.candidates;
   ContinueTracks(masks, tracks, scene.background.known, options.prediction, candidates);

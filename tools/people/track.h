@@ -44,6 +44,8 @@ struct Track {
   int age = 0;                  // detections
   std::vector<float> facing;    // posterior of the model's contexts (forest::Classification)
   double facing_s = -std::numeric_limits<double>::infinity();  // time of `facing`
+  // Until this time it counts as a person for sure, whatever it scores.
+  double certain_until_s = -std::numeric_limits<double>::infinity();
 };
 
 /// A track's predicted centroid: with constant velocity for at most `max_prediction_s`.

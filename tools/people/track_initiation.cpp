@@ -85,6 +85,13 @@ double RequireOfStillTrack(const Detection& detection, const InitiationOptions& 
   return IsVerifiedByPose(detection) ? options.weak_by_pose_score : options.still_track_score;
 }
 
+// Whether enough of a candidate is not the room as it was. Somebody on the floor or in a sofa is
+// hardly in front of it.
+bool IsOutsideRoom(const Candidate& candidate, const InitiationOptions& options) {
+  return candidate.foreground_share > options.rest_foreground_share ||
+         candidate.background_share < options.rest_background_share;
+}
+
 // A track continues by its mean score. The threshold is higher for young tracks, which may be
 // chance detections of furniture, and for those that never moved; lower for foreground.
 Decision DecideTracked(const Detection& detection, double time_s, const InitiationOptions& options,
@@ -96,10 +103,12 @@ Decision DecideTracked(const Detection& detection, double time_s, const Initiati
   const bool entered = prior.moving && little_seen && IsForeground(candidate);
   const bool early = detection.age <= options.early_age;
   const bool still = detection.age > options.still_age && !prior.moved;
-  const double needed = entered ? options.foreground_track_score
-                        : still ? RequireOfStillTrack(detection, options)
-                        : early ? options.early_track_score
-                                : options.tracked_score;
+  const bool rests = prior.certain && IsOutsideRoom(candidate, options);
+  const double needed = rests     ? 0.0
+                        : entered ? options.foreground_track_score
+                        : still   ? RequireOfStillTrack(detection, options)
+                        : early   ? options.early_track_score
+                                  : options.tracked_score;
   if (detection.score >= needed) return DescribeDetection(detection, Rule::kTrackContinued, needed);
   if (still || early) {
     TentativeTrack track = StartTentative(detection, time_s);

@@ -121,6 +121,8 @@ void UpdateTrack(const PointGrid& grid, const Detection& person, const std::vect
   ++track.age;
   track.facing = person.evidence.classification.context;
   track.facing_s = time_s;
+  if (track.age >= options.certain_age && person.score >= options.certain_score)
+    track.certain_until_s = time_s + options.certain_s;
 }
 
 void ResetEvidence(Track& track) {

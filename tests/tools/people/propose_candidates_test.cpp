@@ -56,6 +56,44 @@ TEST(ProposeCandidates, TrackedPersonStaysWholeInThePlaneOfACupboard) {
   }
 }
 
+// The surface of the track's candidate, square metres, after somebody with this score stood before
+// `first` for a second and is then seen in `last`.
+float TrackAreaAfter_m2(double score, const std::vector<tests::Box>& first,
+                        const std::vector<tests::Box>& last) {
+  constexpr int kEmpty = 25, kFrames = 30;  // the room alone becomes background
+  PeopleState state;
+  for (int f = 0; f < kEmpty; ++f) Confirm(Propose(Shot({}, f), state), {}, f / 30.0, state);
+  for (int f = kEmpty; f < kEmpty + kFrames; ++f) {
+    const CapsuleRender render = Shot({}, f, first);
+    const Proposed proposed = Propose(render, state);
+    EXPECT_EQ(proposed.candidates.size(), 1U) << f;
+    Confirm(proposed, proposed.candidates, render.frame.time_s, state, {}, score);
+  }
+  float area_m2 = 0;
+  const Proposed proposed = Propose(Shot({}, kEmpty + kFrames, last), state);
+  for (const Candidate& candidate : proposed.candidates)
+    if (candidate.track == 0) area_m2 += candidate.region.area_m2;
+  return area_m2;
+}
+
+// A flat coat whose front meets that of a cupboard without a gap: one plane, larger than a person.
+TEST(ProposeCandidates, PersonForSureIsNotPartOfThePlaneThatGrowsOverThem) {
+  const tests::Box coat{{-0.35, -0.8, 3.0}, {0.0, 0.6, 3.2}};
+  const tests::Box cupboard{{0.0, -1.0, 3.0}, {1.2, 0.8, 3.4}};
+  constexpr float kCoat_m2 = 0.35F * 1.4F;
+  EXPECT_NEAR(TrackAreaAfter_m2(0.9, {coat}, {coat, cupboard}), kCoat_m2, 0.1F * kCoat_m2);
+  EXPECT_EQ(TrackAreaAfter_m2(0.3, {coat}, {coat, cupboard}), 0.0F);
+}
+
+// Half of a body on the floor is in one large plane with what lies beside it.
+TEST(ProposeCandidates, PersonForSureOnTheFloorKeepsWhatStandsOutBesideThem) {
+  const tests::Box trunk{{-0.6, -1.0, 2.6}, {0.0, -0.7, 2.9}};
+  const tests::Box legs{{0.0, -1.0, 2.6}, {0.7, 0.0, 2.9}};  // 0.7 m2: flatter than a body
+  constexpr float kTrunk_m2 = 0.6F * 0.3F;
+  EXPECT_GT(TrackAreaAfter_m2(0.9, {trunk}, {trunk, legs}), 1.5F * kTrunk_m2);
+  EXPECT_LT(TrackAreaAfter_m2(0.3, {trunk}, {trunk, legs}), 1.1F * kTrunk_m2);
+}
+
 // Seen from 3 m above the floor: head, trunk and an arm down to the left, with the hand at the
 // middle of a roll on the floor, 4 m long.
 CapsuleRender AtARollFromAbove() {

@@ -49,14 +49,16 @@ inline Proposed ProposeAlone(const CapsuleRender& render) {
   return Propose(render, state);
 }
 
-/// The steps after classification, which accepted these candidates: their ids.
+/// The steps after classification, which accepted these candidates with this score: their ids.
 inline std::vector<int> Confirm(const Proposed& proposed, const std::vector<Candidate>& people,
                                 double time_s, PeopleState& state,
-                                const std::vector<Keypoints>& keypoints_m = {}) {
+                                const std::vector<Keypoints>& keypoints_m = {},
+                                double score = 0.0) {
   std::vector<Detection> detections(people.size());
   std::vector<uint8_t> claimed(static_cast<size_t>(proposed.scene.grid.cells()), 0);
   for (size_t i = 0; i < people.size(); ++i) {
     detections[i].candidate = people[i];
+    detections[i].score = score;
     if (!keypoints_m.empty()) detections[i].keypoints_m = keypoints_m[i];
     for (const int cell : people[i].region.cells) claimed[static_cast<size_t>(cell)] = 1;
   }

@@ -175,6 +175,26 @@ TEST_F(NewPerson, ThatBendsDownIsKeptOnlyAsALongLivedTrack) {
   }
 }
 
+// Somebody on the floor or deep in a sofa hardly scores. What left the room as it was is not them.
+TEST_F(NewPerson, ForSureStaysWithoutAScoreUnlessOnlyTheRoomIsLeft) {
+  struct Case {
+    bool certain;
+    double foreground_share, background_share;
+    bool stays;
+  };
+  std::vector<TentativeTrack> tentative;
+  for (const Case& c : {Case{true, 0.0, 0.1, true}, Case{true, 0.3, 0.8, true},
+                        Case{true, 0.1, 0.8, false}, Case{false, 0.3, 0.1, false}}) {
+    Detection detection = Detect({0.001, 0, c.foreground_share});
+    detection.age = 50;
+    detection.candidate.background_share = c.background_share;
+    detection.prior.moved = true;
+    detection.prior.certain = c.certain;
+    EXPECT_EQ(DecidePerson(false, 1.0, options_, tentative, detection), c.stays)
+        << c.certain << c.foreground_share << c.background_share;
+  }
+}
+
 // The threshold is higher for young tracks, and highest for those that never moved.
 TEST_F(NewPerson, ThresholdFallsWithAgeUnlessThePersonNeverMoved) {
   struct Case {
