@@ -88,8 +88,10 @@ void AddPeople(const depth::Camera& camera, const std::vector<int>& ids,
 }  // namespace
 
 PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& classifier,
-                           PeopleState& state, const PeopleOptions& options) {
+                           PeopleState& state, const PeopleOptions& usual) {
   const Stopwatch watch;
+  const std::optional<double> step_s = state.rate.Update(frame.time_s);
+  const PeopleOptions options = step_s ? AdaptToFrameRate(usual, *step_s) : usual;
   std::vector<Track>& tracks = state.tracks.tracks;
   PeopleInFrame result;
   auto& decided = result.decisions.candidates;

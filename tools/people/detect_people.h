@@ -7,6 +7,7 @@
 #include "tools/people/associate_tracks.h"
 #include "tools/people/decision.h"
 #include "tools/people/detection.h"
+#include "tools/people/frame_rate.h"
 #include "tools/people/track_initiation.h"
 
 /// Person detection and tracking: who is in the image, and which pixels belong to whom.
@@ -14,6 +15,7 @@ namespace ossa::people {
 
 /// The state between frames.
 struct PeopleState {
+  FrameRate rate;
   depth::SceneState scene;
   TrackList tracks;                       // confirmed and lost
   std::vector<TentativeTrack> tentative;  // not accepted as people so far

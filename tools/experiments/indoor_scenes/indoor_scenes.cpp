@@ -29,7 +29,7 @@ IndoorScore RunScenario(const IndoorScenario& scenario, const IndoorSceneInputs&
   IndoorSceneRenderer renderer(scenario, inputs, job.seed);
   tracker::Tracker tracker(how);
   IndoorEvaluator evaluator;
-  for (int64_t f = 0; f < renderer.size(); ++f) {
+  for (int64_t f = 0; f < renderer.size(); f += inputs.frame_step) {
     context.ThrowIfInterrupted();
     const LabelledFrame frame = renderer.RenderFrame(f);
     const tracker::BodyFrame answer = tracker.Track(frame.depth);
@@ -138,7 +138,7 @@ constexpr int kWidestImage = 4096;  // pixels, by hand: wider than any depth cam
 
 struct SceneSettings {
   std::vector<std::string> sources;
-  int performances = 0, frames = 0, width = 0, pictures_every = 0;
+  int performances = 0, frames = 0, frame_step = 1, width = 0, pictures_every = 0;
   std::string only;  // part of a scenario's name
   Split split = Split::kTest;
   std::string method;
@@ -151,6 +151,7 @@ SceneSettings ReadSettings(ExperimentContext& context) {
   settings.sources = parameters.Motions("mocap");
   settings.performances = parameters.Integer("performances", context.full ? 6 : 2, 1);
   settings.frames = parameters.Integer("frames", context.full ? 150 : 90, 2);
+  settings.frame_step = parameters.Integer("frame_step", 1, 1, settings.frames - 1);
   settings.width = parameters.Integer("width", 640, 160, kWidestImage);
   settings.pictures_every = parameters.Integer("pictures_every", 0);
   settings.only = parameters.Text("only", "");
@@ -183,8 +184,10 @@ std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
   const auto model = LoadFetchedBody();
   const recon::Wardrobe wardrobe(model);
   const int width = settings.width;
-  const IndoorSceneInputs inputs{model, wardrobe,      clips,           settings.split,
-                                 width, width * 3 / 4, settings.frames, settings.carried};
+  const IndoorSceneInputs inputs{
+      model,           wardrobe,      clips,           settings.split,
+      width,           width * 3 / 4, settings.frames, settings.frame_step,
+      settings.carried};
 
   const auto scenarios = IndoorScenarios();
   std::vector<Job> jobs;

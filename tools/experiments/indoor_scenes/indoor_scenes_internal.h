@@ -44,8 +44,9 @@ struct IndoorSceneInputs {
   const std::vector<recon::MotionClip>& clips;
   Split split = Split::kTest;  // of bodies
   int width = 640, height = 480;
-  int64_t frames = 90;
-  bool carried = false;  // whether the sensor is carried around instead of standing still
+  int64_t frames = 90;     // at 30 Hz,
+  int64_t frame_step = 1;  // ... of which each of this many reaches the tracker: a slower camera
+  bool carried = false;    // whether the sensor is carried around instead of standing still
 };
 
 /// One performance of a scenario: same scenario, inputs and seed, same frames.
