@@ -131,6 +131,7 @@ struct PredictionOptions {
   // head or feet, and a step.
   double lying_below_m = 0.5;
   float lying_reach_m = 1.2F;
+  double return_score = 0.6;      // last mean score of a track, [0, 1], that may return
   float return_gate_m = 0.6F;     // a step: from the predicted place of a lost track,
   float return_speed_m_s = 0.7F;  // ... growing with time
   float height_weight = 0.3F;     // of the vertical offset: occlusion changes the centroid's height

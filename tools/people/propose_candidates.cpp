@@ -192,9 +192,16 @@ void ContinueTracks(const CellMasks& masks, const std::vector<Track>& tracks,
   }
 }
 
+// Whether a lost track was a person who may return, rather than a chance detection: noise and
+// furniture that was one for a moment would come back again and again.
+bool MayHaveLeft(const Track& track, double time_s, const PredictionOptions& options) {
+  return time_s < track.certain_until_s || track.score.value_or(0.0) >= options.return_score;
+}
+
 void MarkReturningCandidates(const std::vector<Track>& tracks, double time_s, double forget_s,
                              const PredictionOptions& options, std::vector<Candidate>& candidates) {
   for (size_t t = 0; t < tracks.size(); ++t) {
+    if (!MayHaveLeft(tracks[t], time_s, options)) continue;
     const auto goes_on = [t](const Candidate& c) { return c.track == static_cast<int>(t); };
     if (std::any_of(candidates.begin(), candidates.end(), goes_on)) continue;
     for (Candidate& candidate : candidates) {

@@ -85,6 +85,23 @@ TEST(ProposeCandidates, PersonForSureIsNotPartOfThePlaneThatGrowsOverThem) {
   EXPECT_EQ(TrackAreaAfter_m2(0.3, {coat}, {coat, cupboard}), 0.0F);
 }
 
+TEST(ProposeCandidates, OnlyWhoScoredLikeAPersonMayReturn) {
+  const auto may_return = [](double score) {
+    PeopleState state;
+    for (int f = 0; f < 5; ++f) {
+      const CapsuleRender render = Shot({PersonAt(0, 2.5)}, f);
+      const Proposed proposed = Propose(render, state);
+      Confirm(proposed, proposed.candidates, render.frame.time_s, state, {}, score);
+    }
+    Confirm(Propose(Shot({}, 12), state), {}, 12 / 30.0, state);
+    const Proposed back = Propose(Shot({PersonAt(0.6, 2.5)}, 13), state);
+    EXPECT_EQ(back.candidates.size(), 1U);
+    return back.candidates.at(0).may_return;
+  };
+  EXPECT_TRUE(may_return(0.9));
+  EXPECT_FALSE(may_return(0.4));
+}
+
 // Half of a body on the floor is in one large plane with what lies beside it.
 TEST(ProposeCandidates, PersonForSureOnTheFloorKeepsWhatStandsOutBesideThem) {
   const tests::Box trunk{{-0.6, -1.0, 2.6}, {0.0, -0.7, 2.9}};
