@@ -31,6 +31,7 @@ constexpr std::array kStages = {
     Stage{Reconstruct, &StageTimes::reconstruct},
     Stage{SmoothPosture, &StageTimes::reconstruct},
     Stage{StandOnFloor, &StageTimes::reconstruct},
+    Stage{KeepAboveFloor, &StageTimes::reconstruct},
     Stage{Simulate, &StageTimes::physics},
     Stage{Finish, &StageTimes::reconstruct},
 };

@@ -50,6 +50,8 @@ void Reconstruct(SkeletonWork& work);
 void SmoothPosture(SkeletonWork& work);
 /// From the ceiling: places unseen, unrefined legs on the floor: `posture`.
 void StandOnFloor(SkeletonWork& work);
+/// Turns the bones of somebody on the floor up, out of it: `posture`.
+void KeepAboveFloor(SkeletonWork& work);
 /// Simulates the character, where physics is on: `posture`.
 void Simulate(SkeletonWork& work);
 /// Sets the result, body.joints.

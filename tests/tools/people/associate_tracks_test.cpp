@@ -300,6 +300,7 @@ int IdOfTheFirst(bool other_comes_too) {
     Track track;
     track.id = state.tracks.next_id++;
     track.mean_m = {x_m, 0, 3};
+    track.score = 0.9;
     track.last_seen_s = 3 / 30.0 - 1.0;
     state.tracks.tracks.push_back(track);
   }
