@@ -15,6 +15,10 @@ using Eigen::Vector3d;
 constexpr double kLowest_m = -0.03;  // of a joint: the error of the floor's plane at 4 m
 // Of the hips of who is on the floor. Lower ones mean that a table top was taken for the floor.
 constexpr double kLowestHips_m = -0.15, kHighestHips_m = 0.5;
+// Of a joint that is seen: lower ones mean the same.
+constexpr double kLowestSeen_m = -0.08;
+// Detections; in rendered first images the top of a box is taken for the floor now and then.
+constexpr int kFewest = 12;
 
 // A bone of this length from `parent_m` in the direction of `joint_m`, turned up until its end is
 // not below the floor.
@@ -38,13 +42,17 @@ Vector3d TurnUp(const Vector3d& parent_m, const Vector3d& joint_m, double length
 }  // namespace
 
 void KeepAboveFloor(SkeletonWork& work) {
-  if (!work.floor) return;
+  if (!work.floor || work.detection == nullptr || work.detection->age < kFewest) return;
   const Eigen::Vector4d& floor = *work.floor;
   const recon::Posture before = work.posture;
   const auto height_m = [&](size_t j) {
     return floor.head<3>().dot(before.position_m[j]) + floor[3];
   };
   if (!(height_m(0) > kLowestHips_m && height_m(0) < kHighestHips_m)) return;
+  for (size_t j = 0; j < recon::kJointCount; ++j) {
+    const bool is_seen = work.seen.state[j] == recon::TrackingState::kTracked;
+    if (is_seen && height_m(j) < kLowestSeen_m) return;
+  }
   std::array<bool, recon::kJointCount> moved{};
   if (height_m(0) < kLowest_m) {
     work.posture.position_m[0] += (kLowest_m - height_m(0)) * floor.head<3>();

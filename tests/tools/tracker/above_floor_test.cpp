@@ -17,6 +17,7 @@ constexpr double kLowest_m = -0.03;  // that a joint may be below it
 // Legs down, the hips at a height: on the floor they go through it.
 class OnTheFloor : public testing::Test {
  protected:
+  OnTheFloor() { detection_.age = 20; }
   recon::Posture PostureAt(double hips_m) {
     recon::Posture posture =
         recon::BuildTPose(recon::MeasureBoneLengths(recon::StandardPosture(recon::RigPose{})));
@@ -25,8 +26,9 @@ class OnTheFloor : public testing::Test {
     return posture;
   }
   recon::Posture Keep(const recon::Posture& posture) {
-    SkeletonWork work{options_, frame_, floor_, nullptr, person_, body_};
+    SkeletonWork work{options_, frame_, floor_, &detection_, person_, body_};
     work.posture = posture;
+    work.seen = seen_;
     KeepAboveFloor(work);
     return work.posture;
   }
@@ -37,8 +39,10 @@ class OnTheFloor : public testing::Test {
   SkeletonOptions options_;
   depth::DepthFrame frame_;
   std::optional<Eigen::Vector4d> floor_ = Eigen::Vector4d(0.0, 1.0, 0.0, kCamera_m);
+  people::Detection detection_;
   Person person_;
   Body body_;
+  recon::TrackedPosture seen_;  // no joint is seen
 };
 
 TEST_F(OnTheFloor, LegsAreTurnedUpAndKeepTheirLengths) {
@@ -59,6 +63,18 @@ TEST_F(OnTheFloor, JointsAboveItStayWhereTheyAre) {
   for (size_t j = 0; j <= Index(Joint::kHandRight); ++j) {
     EXPECT_EQ(made.position_m[j], before.position_m[j]) << j;
   }
+}
+
+TEST_F(OnTheFloor, SeenJointsBelowItProveItWrong) {
+  seen_.state[Index(Joint::kKneeLeft)] = recon::TrackingState::kTracked;
+  const recon::Posture before = PostureAt(0.1);
+  EXPECT_EQ(Keep(before).position_m, before.position_m);
+}
+
+TEST_F(OnTheFloor, NotInTheFirstFramesWhoseFloorMayBeATableTop) {
+  detection_.age = 1;
+  const recon::Posture before = PostureAt(0.1);
+  EXPECT_EQ(Keep(before).position_m, before.position_m);
 }
 
 TEST_F(OnTheFloor, WhoStandsOrSitsBehindATableTopIsNotChanged) {
