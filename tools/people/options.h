@@ -281,7 +281,8 @@ struct InitiationOptions {
   double forget_s = 2.0;           // age of an unseen tentative track when it is deleted
   int max_observations = 8;        // in the mean of a tentative track
   double unbroken_s = 0.12;        // three frames at 30 Hz: single ones may be missed
-  double min_common_share = 0.6;   // of the larger segment's cells: the same object as before
+  double min_common_share = 0.6;   // of the larger segment's cells: the same object as before,
+  float same_depth_m = 0.3F;       // ... if it is not nearer or farther by more: half a step
   float step_m = 0.25F;  // largest movement between two observations of moving foreground,
   double step_s = 0.2;   // ... which are at most this far apart
   int max_users = 6;     // most people tracked at a time, >= 1; the SDK's

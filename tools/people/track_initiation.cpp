@@ -53,6 +53,8 @@ TentativeTrack* FindTentative(const Candidate& candidate, double time_s,
   const auto& cells = candidate.region.cells;
   const auto same = std::find_if(tentative.begin(), tentative.end(), [&](const auto& track) {
     const size_t larger = std::max(cells.size(), track.cells.size());
+    if (std::abs(track.mean_m.z() - candidate.region.mean_m.z()) > options.same_depth_m)
+      return false;  // somebody stands before it now
     return static_cast<double>(CountCommon(cells, track.cells)) >
            options.min_common_share * static_cast<double>(larger);
   });

@@ -19,6 +19,7 @@ struct Observation {
   bool isolated = true;
   double occluded_share = 0.3;  // share of its silhouette that is occluded
   Verifier verifier = Verifier::kForest;
+  float z_m = 3;  // of the centroid
 };
 
 class NewPerson : public testing::Test {
@@ -34,7 +35,7 @@ class NewPerson : public testing::Test {
     candidate.has_head = look.has_head;
     candidate.isolated = look.isolated;
     candidate.occluded_share = look.occluded_share;
-    candidate.region.mean_m = {look.x_m, 0, 3};
+    candidate.region.mean_m = {look.x_m, 0, look.z_m};
     candidate.region.area_m2 = look.area_m2;
     const int column = 80 + static_cast<int>(std::lround(look.x_m / 0.04F));
     for (int row = 20; row < 120; ++row) candidate.region.cells.push_back(160 * row + column);
@@ -173,6 +174,18 @@ TEST_F(NewPerson, ThatBendsDownIsKeptOnlyAsALongLivedTrack) {
     EXPECT_EQ(DecidePerson(true, 1.0, options_, tentative, detection), age == 40);
     EXPECT_EQ(detection.decision.rule, age == 40 ? Rule::kTrackContinued : Rule::kTrackLowScore);
   }
+}
+
+// A wall of noise was looked at for a second before somebody steps in front of it.
+TEST_F(NewPerson, IsNotJudgedByWhatIsBehindThem) {
+  const auto accepted_in = [&](float z_m) {
+    return AcceptedIn(40, false, [&](int f) {
+      return f < 30 ? Observation{.score = 0.02, .z_m = 3.6F}
+                    : Observation{.score = 0.95, .z_m = z_m};
+    });
+  };
+  EXPECT_EQ(accepted_in(2.8F), 30 + options_.standing_observations - 1);
+  EXPECT_EQ(accepted_in(3.5F), -1) << "the same object scores high for a moment";
 }
 
 // Somebody on the floor or deep in a sofa hardly scores. What left the room as it was is not them.
