@@ -14,7 +14,7 @@ std::optional<double> FrameRate::Update(double time_s) {
 }
 
 PeopleOptions AdaptToFrameRate(PeopleOptions options, double step_s) {
-  constexpr double kTwo = 1.8;          // by hand: steps, since steps vary
+  constexpr double kTwo = 1.8;          // frames; by hand: their steps vary
   constexpr double kSlowest_s = 1.0;    // by hand: with longer steps each frame is a new scene
   constexpr double kWalking_m_s = 1.4;  // anthropometry: usual walking speed
   const double step = std::min(step_s, kSlowest_s), two_s = kTwo * step;
