@@ -38,13 +38,19 @@ void ApplyPoseNetwork(const ClassificationInput& input, Detection& detection) {
   const bool is_new = detection.candidate.track < 0;
   const double forest = detection.evidence.score;
   if (forest < options.evidence.min_surface_score) return;
-  const bool little_seen = IsForeground(detection.candidate) || detection.candidate.may_return ||
-                           (detection.is_piece && !input.scene.fresh);
-  if (is_new ? little_seen : forest >= options.initiation.confident_score) return;
+  // Who comes into a known scene, or back, is new but hardly furniture: like somebody tracked, they
+  // can only gain by the network, which sees less of who is half hidden.
+  const bool comes =
+      is_new && (IsForeground(detection.candidate) || detection.candidate.may_return ||
+                 (detection.is_piece && !input.scene.fresh));
+  const InitiationOptions& initiation = options.initiation;
+  const double enough = comes ? initiation.new_person_score : initiation.confident_score;
+  const bool gains_only = comes || !is_new;
+  if (gains_only && forest >= enough) return;
   detection.pose = ReadPose(*input.classifier.network, input.frame, detection.candidate.pixels);
   if (!detection.pose) return;
   const double score = ComputeScoreWithPose(forest, MeasureCertainty(*detection.pose));
-  if (!is_new && score < forest) return;
+  if (gains_only && score < forest) return;
   const bool contested = forest >= options.initiation.confident_score &&
                          score >= options.initiation.contested_score &&
                          score < options.initiation.person_by_pose_score;

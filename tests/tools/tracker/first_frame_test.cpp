@@ -43,6 +43,37 @@ TEST(FirstFrame, PersonRejectedByThePoseNetworkIsNotAccepted) {
   }));
 }
 
+// Only the legs of somebody 4 m away, who stepped into a room that was empty for 25 frames.
+TEST(FirstFrame, NewcomerWhomTheForestDoubtsIsDecidedByThePoseNetwork) {
+  OSSA_NEEDS_MODEL();
+  constexpr double kFar_m = 4.0, kCut_m = -0.15;  // below the camera
+  const depth::DepthFrame empty = Rendered({}).frame;
+  depth::DepthFrame legs = Rendered({PersonAt(0, kFar_m)}).frame;
+  for (size_t i = 0; i < legs.depth_mm.size(); ++i) {
+    const int v = static_cast<int>(i) / legs.camera.width;
+    if (-kFar_m * (v - legs.camera.cy) / legs.camera.fy > kCut_m)
+      legs.depth_mm[i] = empty.depth_mm[i];
+  }
+  const auto bodies = [&](std::shared_ptr<const recon::PoseNetwork> network) {
+    TrackerOptions options;
+    options.mount = Mount::kLevel;
+    options.turn = Turn::kNone;
+    options.models = ModelSet::Shipped(options.method);
+    options.models->pose_network = std::move(network);
+    Tracker tracker(options);
+    depth::DepthFrame frame = empty;
+    for (frame.index = 0; frame.index < 25; ++frame.index) {
+      frame.time_s = static_cast<double>(frame.index) / 30.0;
+      tracker.Track(frame);
+    }
+    legs.time_s = static_cast<double>(frame.index) / 30.0;
+    return tracker.Track(legs).bodies.size();
+  };
+  EXPECT_EQ(bodies(nullptr), 0U);
+  EXPECT_EQ(bodies(NetworkOfError(1.0F)), 0U);
+  EXPECT_GT(bodies(NetworkOfError(-2.0F)), 0U);
+}
+
 // The network estimates the same joints for either half.
 TEST(FirstFrame, PersonDividedByAPoleIsOneBody) {
   OSSA_NEEDS_MODEL();
