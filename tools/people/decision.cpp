@@ -43,6 +43,8 @@ constexpr std::array<RuleEntry, static_cast<size_t>(Rule::kCount)> kRules = {{
      "accepted at the first look, but no body's surface explains what is seen of it"},
     {Rule::kTrackContinued, "track_continued", Outcome::kConfirmed,
      "it was a person a moment ago, and the mean score is high enough"},
+    {Rule::kTrackRests, "track_rests", Outcome::kConfirmed,
+     "it was a person for sure not long ago, and is not the room as it was"},
     {Rule::kFreshScene, "fresh_scene", Outcome::kConfirmed,
      "high score in the first frame of a scene"},
     {Rule::kReturning, "returning", Outcome::kConfirmed,

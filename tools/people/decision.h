@@ -28,6 +28,7 @@ enum class Rule {
   kUnlikeABody,
   // A person.
   kTrackContinued,
+  kTrackRests,
   kFreshScene,
   kReturning,
   kEntered,

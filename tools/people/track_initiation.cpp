@@ -105,13 +105,13 @@ Decision DecideTracked(const Detection& detection, double time_s, const Initiati
   const bool entered = prior.moving && little_seen && IsForeground(candidate);
   const bool early = detection.age <= options.early_age;
   const bool still = detection.age > options.still_age && !prior.moved;
-  const bool rests = prior.certain && IsOutsideRoom(candidate, options);
-  const double needed = rests     ? 0.0
-                        : entered ? options.foreground_track_score
-                        : still   ? RequireOfStillTrack(detection, options)
-                        : early   ? options.early_track_score
-                                  : options.tracked_score;
+  const double needed = entered ? options.foreground_track_score
+                        : still ? RequireOfStillTrack(detection, options)
+                        : early ? options.early_track_score
+                                : options.tracked_score;
   if (detection.score >= needed) return DescribeDetection(detection, Rule::kTrackContinued, needed);
+  if (prior.certain && IsOutsideRoom(candidate, options))
+    return DescribeDetection(detection, Rule::kTrackRests, needed);
   if (still || early) {
     TentativeTrack track = StartTentative(detection, time_s);
     track.was_rejected = true;

@@ -205,6 +205,7 @@ TEST_F(NewPerson, ForSureStaysWithoutAScoreUnlessOnlyTheRoomIsLeft) {
     detection.prior.certain = c.certain;
     EXPECT_EQ(DecidePerson(false, 1.0, options_, tentative, detection), c.stays)
         << c.certain << c.foreground_share << c.background_share;
+    EXPECT_EQ(detection.decision.rule, c.stays ? Rule::kTrackRests : Rule::kTrackLowScore);
   }
 }
 
