@@ -31,8 +31,7 @@ namespace {
 
 bool IsAtTop(const Scene& scene, const Region& region) {
   constexpr int kBorder = 3;  // cells, by hand: sensors leave rows out
-  const auto first = std::ranges::min_element(region.cells);
-  return first != region.cells.end() && *first < kBorder * scene.grid.width;
+  return !region.cells.empty() && region.cells.front() < kBorder * scene.grid.width;
 }
 
 }  // namespace

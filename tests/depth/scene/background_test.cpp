@@ -83,6 +83,19 @@ bool IsBackground(float z_m, const BackgroundState& state) {
   return count > 0;
 }
 
+TEST(Background, ShareThatIsCertainGrowsFromNothingToAllButThePerson) {
+  const PointGrid empty = GridOf(Shot({})), now = GridOf(Shot({PersonAt(0, 2.5)}));
+  const std::vector<uint8_t> nobody(static_cast<size_t>(empty.cells()), 0);
+  BackgroundState state;
+  EXPECT_EQ(CompareWithBackground(empty, state).certain_share, 0.0);
+  for (int f = 0; f < BackgroundOptions().certain_frames; ++f)
+    LearnBackground(empty, nobody, state);
+  EXPECT_EQ(CompareWithBackground(empty, state).certain_share, 1.0);
+  const double beside_person = CompareWithBackground(now, state).certain_share;
+  EXPECT_GT(beside_person, 0.8);
+  EXPECT_LT(beside_person, 0.98);
+}
+
 TEST(Background, LearnsSurfacesUnclaimedForTwentyFrames) {
   BackgroundState state;
   See(3.0F, 19, state);

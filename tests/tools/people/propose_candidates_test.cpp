@@ -85,6 +85,18 @@ TEST(ProposeCandidates, PersonForSureIsNotPartOfThePlaneThatGrowsOverThem) {
   EXPECT_EQ(TrackAreaAfter_m2(0.3, {coat}, {coat, cupboard}), 0.0F);
 }
 
+TEST(ProposeCandidates, PersonInAKnownRoomIsHardlyBackground) {
+  PeopleState state;
+  const Proposed first = Propose(Shot({PersonAt(0, 2.5)}), state);
+  ASSERT_EQ(first.candidates.size(), 1U);
+  EXPECT_EQ(first.candidates[0].background_share, 1.0) << "the room is not known";
+  state = {};
+  for (int f = 0; f < 5; ++f) Confirm(Propose(Shot({}, f), state), {}, f / 30.0, state);
+  const Proposed entered = Propose(Shot({PersonAt(0, 2.5)}, 5), state);
+  ASSERT_EQ(entered.candidates.size(), 1U);
+  EXPECT_LT(entered.candidates[0].background_share, 0.1);
+}
+
 TEST(ProposeCandidates, OnlyWhoScoredLikeAPersonMayReturn) {
   const auto may_return = [](double score) {
     PeopleState state;
