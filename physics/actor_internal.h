@@ -106,7 +106,7 @@ struct Actor : ActorMemory {
 
   recon::BoneLengths lengths;
   CharacterOptions options;
-  uint64_t made;  // OdeWorld::made
+  uint64_t made = 0;  // OdeWorld::made
   Character character;
   std::unique_ptr<JointLimits> limits;  // with CharacterOptions::joint_limits
   recon::Posture first;                 // posture when it was added
@@ -131,8 +131,8 @@ inline double HeightAbove(const Eigen::Vector4d& floor, const Eigen::Vector3d& p
 
 /// An object flying at a head: time and distance of its closest approach.
 struct Threat {
-  double time_s;
-  double distance_m;
+  double time_s = 0;
+  double distance_m = 0;
 };
 std::optional<Threat> ThreatTo(const Eigen::Vector3d& head_m, const Eigen::Vector3d& head_velocity,
                                const ObjectState& object);

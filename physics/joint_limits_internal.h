@@ -8,10 +8,10 @@ namespace ossa::physics {
 /// The allowed swing of a bone from a direction fixed to its parent, and its allowed axial
 /// rotation.
 struct JointRange {
-  size_t bone = 0;                   // joint at its end
-  Eigen::Vector3d middle_of_parent;  // unit, in the parent bone's frame
-  double reach_rad = 0.0;            // half-angle of the cone
-  double twist_rad = 0.0;            // to either side of the rest pose; pi: unlimited
+  size_t bone = 0;                                             // joint at its end
+  Eigen::Vector3d middle_of_parent = Eigen::Vector3d::Zero();  // unit, in the parent bone's frame
+  double reach_rad = 0.0;                                      // half-angle of the cone
+  double twist_rad = 0.0;  // to either side of the rest pose; pi: unlimited
 };
 
 /// Ranges of head, upper arms, forearms, hands, thighs, shanks and feet.
@@ -21,7 +21,7 @@ const std::vector<JointRange>& JointRanges();
 /// back.
 struct Excess {
   double angle_rad = 0.0;
-  Eigen::Vector3d axis;
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
 };
 Excess SwingExcess(const JointRange& range, const recon::JointOrientations& orientation);
 Excess TwistExcess(const JointRange& range, const recon::JointOrientations& orientation);

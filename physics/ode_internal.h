@@ -56,7 +56,7 @@ void Recall(dBodyID body, const BodyMemory& memory);
 
 /// A point of the world or of a moving body.
 struct Anchor {
-  Eigen::Vector3d point_m;  // in the world, or in the body's frame
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  // in the world, or in the body's frame
   dBodyID body = nullptr;
   int object = -1;  // object of that body
   Eigen::Vector3d Now() const { return body == nullptr ? point_m : PoseOf(body) * point_m; }
@@ -89,7 +89,7 @@ class OdeWorld {
 /// step of h (ODE manual, "How to use ERP and CFM"): an implicit, hence unconditionally stable,
 /// spring.
 struct SoftConstraint {
-  double erp, cfm;
+  double erp = 0, cfm = 0;
 };
 inline SoftConstraint SpringDamper(double stiffness_n_m, double damping_ns_m, double h_s) {
   const double hk = h_s * stiffness_n_m;

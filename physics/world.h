@@ -65,23 +65,23 @@ struct ObjectOptions {
 
 /// Pose and velocity of an object, in the world.
 struct ObjectState {
-  Eigen::Vector3d position_m;
-  Eigen::Quaterniond orientation;
-  Eigen::Vector3d velocity_m_s;  // of the centre of mass
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  // of the centre of mass
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();
 };
 
 /// A contact between a limb and an object.
 struct Strike {
-  int character;
-  size_t bone;  // the joint at its end
-  int object;
+  int character = 0;
+  size_t bone = 0;  // the joint at its end
+  int object = 0;
 };
 
 /// A joint that holds an object.
 struct Holder {
-  int character;
-  recon::Joint joint;
+  int character = 0;
+  recon::Joint joint{};
   bool operator==(const Holder&) const = default;
 };
 
@@ -95,10 +95,10 @@ struct Party {
 
 /// A point at which two parties press on each other.
 struct ContactPoint {
-  Eigen::Vector3d position_m;  // world
-  Eigen::Vector3d normal;      // unit, from b into a
-  double depth_m = 0.0;        // overlap; below 0: a gap
-  Eigen::Vector3d impulse_ns;  // on a, in one substep
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // world
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();      // unit, from b into a
+  double depth_m = 0.0;                                  // overlap; below 0: a gap
+  Eigen::Vector3d impulse_ns = Eigen::Vector3d::Zero();  // on a, in one substep
 };
 
 /// Two parties that pressed on each other in the last Step.

@@ -16,22 +16,22 @@ struct Grip {
   size_t bone = 0;             // bone that holds it
   bool rigid = false;
   double strength_n = 0.0;
-  double torque_nm = 0.0;   // of a rigid grip: slips beyond
-  Eigen::Vector3d point_m;  // pivot, when it was taken
+  double torque_nm = 0.0;                             // of a rigid grip: slips beyond
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  // pivot, when it was taken
   /// For a slipping grip: its current point on the object, in the body's frame, and its distance
   /// from the surface when it was taken.
   std::optional<Eigen::Vector3d> on_thing_m{};
   double taken_off_m = 0.0;
-  BodyMemory hand_then, thing_then;            // state when it was taken
-  dBodyID hand = nullptr, beside = nullptr;    // the bone that holds it, and its parent
-  Eigen::Isometry3d in_hand;                   // bone from object, when taken
-  std::unique_ptr<dJointFeedback> feedback{};  // for grips that can break
+  BodyMemory hand_then, thing_then;          // state when it was taken
+  dBodyID hand = nullptr, beside = nullptr;  // the bone that holds it, and its parent
+  Eigen::Isometry3d in_hand = Eigen::Isometry3d::Identity();  // bone from object, when taken
+  std::unique_ptr<dJointFeedback> feedback{};                 // for grips that can break
 };
 
 /// A force applied during one Step.
 struct Load {
-  Eigen::Vector3d force_n, torque_nm;
-  Eigen::Vector3d at_m;  // in the body's frame
+  Eigen::Vector3d force_n = Eigen::Vector3d::Zero(), torque_nm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  // in the body's frame
 };
 
 /// An object. The body's origin is its centre of mass.
@@ -78,8 +78,8 @@ struct World::Impl {
   /// A contact joint of the current substep.
   struct Pressing {
     Party a, b;
-    Eigen::Vector3d position_m, normal;
-    double depth_m;
+    Eigen::Vector3d position_m = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+    double depth_m = 0;
     dJointFeedback feedback;
   };
 
@@ -132,7 +132,7 @@ struct World::Impl {
   dGeomID limb_floor_geom = dCreatePlane(nullptr, 0, 1, 0, 0);  // kFloorLook_m higher
   dGeomID probe = dCreateSphere(nullptr, 0.1);                  // stands for the end of a capsule
   std::optional<Eigen::Vector4d> floor;
-  Eigen::Vector3d gravity_m_s2;
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
   // Pointers, because joints and bodies store the addresses of their actors.
   std::map<int, std::unique_ptr<Actor>> actors;
   std::map<int, Thing> things;

@@ -55,8 +55,8 @@ RoomShape FindRoomSurfaces(const PointGrid& grid, const std::optional<FloorPlane
 /// A connected component of the surface: cells in ascending order.
 struct Region {
   std::vector<int> cells;
-  Eigen::Vector3f low_m, high_m;  // bounds
-  Eigen::Vector3f mean_m;
+  Eigen::Vector3f low_m = Eigen::Vector3f::Zero(), high_m = Eigen::Vector3f::Zero();  // bounds
+  Eigen::Vector3f mean_m = Eigen::Vector3f::Zero();
   float area_m2 = 0;  // frontal area
 };
 

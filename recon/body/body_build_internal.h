@@ -21,7 +21,7 @@ struct BodyModelBuilder {
 
 /// What part labelling reads of one triangle or vertex of the neutral mesh, decimetres.
 struct PartLabelInput {
-  Eigen::Vector3f centroid_dm;
+  Eigen::Vector3f centroid_dm = Eigen::Vector3f::Zero();
   std::array<float, kRigBoneCount> bone_weight;  // mean over the triangle's corners
 };
 struct PartLandmarks {

@@ -41,9 +41,9 @@ SkeletonFrame MakeFrame(const std::vector<PointBody>& bodies, const std::vector<
 
 /// An alternative up axis: some programs write files in other axes than the format defines.
 struct AlternativeUpAxis {
-  char name = 'z';          // in the file
-  Eigen::Vector3d axis;     // in the coordinates as read
-  bool is_in_file = false;  // the file states that it is up
+  char name = 'z';                                 // in the file
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // in the coordinates as read
+  bool is_in_file = false;                         // the file states that it is up
 };
 
 /// Rotates people upright if the file's up axis is `other`: if the file says so, or (with a

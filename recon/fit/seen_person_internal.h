@@ -13,9 +13,9 @@ namespace ossa::recon {
 class SeenPerson {
  public:
   struct Pixel {
-    Eigen::Vector3d at_m;  // camera space
-    uint8_t part = 0;      // 0: unknown
-    double weight = 0.0;   // 1 / m^2
+    Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  // camera space
+    uint8_t part = 0;                                // 0: unknown
+    double weight = 0.0;                             // 1 / m^2
   };
 
   void Look(const SurfaceFitInput& input, const SurfaceFitOptions& options);

@@ -11,7 +11,7 @@ namespace ossa::recon {
 
 /// A joint that both cameras track at the same time, in each camera's own space, metres.
 struct CommonJoint {
-  Eigen::Vector3d in_camera_0, in_other;
+  Eigen::Vector3d in_camera_0 = Eigen::Vector3d::Zero(), in_other = Eigen::Vector3d::Zero();
   double weight = 0.0;  // the smaller of both confidences
   size_t track = 0;     // of camera 0
   size_t joint = 0;

@@ -30,8 +30,12 @@ struct LevelOptions {
 
 /// Mean of both sides of a person, metres.
 struct Stance {
-  Eigen::Vector3d balance_m;                    // from the middle of the feet to the centre of mass
-  Eigen::Vector3d trunk_m, thighs_m, shanks_m;  // each from lower to upper end
+  // From the middle of the feet to the centre of mass.
+  Eigen::Vector3d balance_m = Eigen::Vector3d::Zero();
+  // Each from lower to upper end.
+  Eigen::Vector3d trunk_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d thighs_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d shanks_m = Eigen::Vector3d::Zero();
 };
 
 /// Estimates the up direction in the camera's space: from the floor, if known, else from the

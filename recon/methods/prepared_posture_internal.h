@@ -60,8 +60,8 @@ class Person {
 
 /// A joint nearly on the line between two others: p = (1 - share) a + share b.
 struct InterpolatedJoint {
-  Joint joint, a, b;
-  double share;
+  Joint joint{}, a{}, b{};
+  double share = 0;
 };
 
 /// Shares measured on the standard body; the spine comes after the joints it depends on.

@@ -40,9 +40,9 @@ struct HumanBoneInfo {
   std::string_view unity;   // HumanBodyBones
   std::string_view vrm;     // VRM 1.0
   std::string_view mixamo;  // without prefix; also CMU's name
-  int parent;
-  Joint place;
-  Joint turner;
+  int parent = 0;
+  Joint place{};
+  Joint turner{};
 };
 extern const std::array<HumanBoneInfo, kHumanBoneCount> kHumanBones;
 

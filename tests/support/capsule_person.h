@@ -27,7 +27,7 @@ recon::Posture ComputeJoints(const CapsulePose& pose);
 
 /// A sphere-swept segment with the part label of its surface; label 0 stands for furniture.
 struct Capsule {
-  Eigen::Vector3d a_m, b_m;
+  Eigen::Vector3d a_m = Eigen::Vector3d::Zero(), b_m = Eigen::Vector3d::Zero();
   double radius_m = 0.1;
   uint8_t left_label = 0;   // label of points on the person's left side
   uint8_t right_label = 0;  // and on the right
@@ -35,12 +35,12 @@ struct Capsule {
 
 /// An axis-aligned box of furniture.
 struct Box {
-  Eigen::Vector3d low_m, high_m;
+  Eigen::Vector3d low_m = Eigen::Vector3d::Zero(), high_m = Eigen::Vector3d::Zero();
 };
 
 /// A plane n.x + d = 0 that reflects everywhere: floor, wall, ceiling.
 struct Plane {
-  Eigen::Vector3d normal;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset_m = 0.0;
 };
 

@@ -23,7 +23,7 @@ class FloorOption {
   /// Throws UsageError for other values.
   void Check() {
     if (text_.empty() || text_ == "auto") return;
-    Eigen::Vector4d p;
+    Eigen::Vector4d p = Eigen::Vector4d::Zero();
     char rest = 0;
     const int found =
         std::sscanf(text_.c_str(), "%lf,%lf,%lf,%lf%c", &p[0], &p[1], &p[2], &p[3], &rest);

@@ -12,7 +12,9 @@ namespace ossa::nite2 {
 /// One hand at one time. Camera space, metres.
 struct HandSample {
   double time_s = 0.0;
-  Eigen::Vector3d hand_m, elbow_m, shoulder_m;
+  Eigen::Vector3d hand_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d elbow_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d shoulder_m = Eigen::Vector3d::Zero();
 };
 
 /// Thresholds of gestures; by hand.
@@ -54,9 +56,9 @@ class GestureDetector {
   // Click: recent samples, and the current push.
   std::deque<HandSample> past_;
   struct Push {
-    Eigen::Vector3d from_m;  // the hand as seen from the shoulder, where it began
-    Eigen::Vector3d way_m;   // the farthest from there
-    double end_s = 0.0;      // when it was there
+    // The hand as seen from the shoulder, where it began, and the farthest from there.
+    Eigen::Vector3d from_m = Eigen::Vector3d::Zero(), way_m = Eigen::Vector3d::Zero();
+    double end_s = 0.0;  // when it was there
   };
   std::optional<Push> pushed_;
   // Raise: since when, and whether it was reported.

@@ -49,7 +49,7 @@ class FollowedHands {
 
  private:
   struct Hand {
-    Eigen::Vector3d place_m;
+    Eigen::Vector3d place_m = Eigen::Vector3d::Zero();
     std::optional<int> body_id;  // none: not met yet
     bool left = false;
     double seen_s = 0.0;

@@ -45,8 +45,8 @@ class LoneHands {
  private:
   struct Hand {
     int id = 0;
-    Eigen::Vector3d place_m;
-    Eigen::Vector3d settled_m;  // mean of recent positions
+    Eigen::Vector3d place_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d settled_m = Eigen::Vector3d::Zero();  // mean of recent positions
     double seen_s = 0.0, since_s = 0.0;
   };
   SeenHand UpdateHand(Hand& hand, const Eigen::Vector3d& place_m, const Eigen::Vector3d& elbow_m,

@@ -70,7 +70,7 @@ bool Occludes(const Scene& scene, const Candidate& plane, const Candidate& perso
               const PlanarOccluderOptions& options);
 
 struct Bone {
-  Eigen::Vector3f from_m, to_m;
+  Eigen::Vector3f from_m = Eigen::Vector3f::Zero(), to_m = Eigen::Vector3f::Zero();
 };
 /// Removes the cells that are farther than `reach_m` from every bone: furniture that touches the
 /// person.

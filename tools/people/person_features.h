@@ -46,7 +46,7 @@ constexpr size_t CountTerms(size_t features) {
 using PersonFeatures = std::array<double, kPersonFeatureCount>;
 
 struct HeadCluster {
-  Eigen::Vector3d mean_m;
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
   double area_m2 = 0;
 };
 

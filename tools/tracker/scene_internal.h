@@ -20,8 +20,8 @@ struct ScenePerson {
 /// The state of a hand, or another joint that grabs, between frames.
 struct HandMemory {
   struct Place {
-    double time_s;
-    Eigen::Vector3d at_m;
+    double time_s = 0;
+    Eigen::Vector3d at_m = Eigen::Vector3d::Zero();
   };
   std::optional<Eigen::Vector3d> made_m;  // of the character in the last frame
   Eigen::Vector3d made_velocity_m_s = Eigen::Vector3d::Zero();
@@ -55,7 +55,7 @@ struct SceneActor {
 /// A joint that may grab an object, and the rule that applies.
 struct SceneHand {
   SceneActor* actor;
-  recon::Joint joint;
+  recon::Joint joint{};
   const GrabRule* rule;
 };
 

@@ -9,7 +9,7 @@ namespace ossa::recon::test {
 /// kHead the biases are what every cell votes.
 inline PoseNetwork::Layers SilentLayers() {
   struct Shape {
-    int size, stride;
+    int size = 0, stride = 0;
     Eigen::Index inputs, outputs;
   };
   constexpr Eigen::Index kVotes = 5 * kJointCount;

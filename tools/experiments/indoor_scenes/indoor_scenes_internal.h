@@ -60,11 +60,12 @@ class IndoorSceneRenderer {
  private:
   struct Way {  // of one person
     std::vector<recon::RigPose> poses;
-    Eigen::Vector3d from_m, to_m;  // of the hips on the floor, at the first and last frame
+    // Of the hips on the floor, at the first and last frame.
+    Eigen::Vector3d from_m = Eigen::Vector3d::Zero(), to_m = Eigen::Vector3d::Zero();
     double heading_rad = 0;
   };
   struct Thing {
-    int mesh;                    // id in the renderer
+    int mesh = 0;                // id in the renderer
     depth::TriangleMesh mesh_m;  // in the world
   };
 
