@@ -15,6 +15,12 @@ using Eigen::Vector3d;
 
 constexpr int kBlock = 4;    // cells a side
 constexpr int kFewest = 11;  // minimum measured cells of a block's 16
+constexpr int kReach = 2;    // blocks: farther from those of a piece, its cells may be another's
+// Share of those cells, [0, 1], in squares of 2 x 2 filled blocks, by hand: of walls on real frames
+// 0.4 to 0.9, of strips beside a person 0 to 0.35.
+constexpr double kLeastBroad = 0.4;
+constexpr double kMostTilted = 0.5;      // cosine of the normal to the vertical: a chest, leaning
+constexpr double kFlatPersonFrom_m = 3;  // sensor: from here on a whole person appears flat
 // Quantisation of the Kinect v1 in inverse depth, measured on real frames (`ossa experiment
 // sensor`).
 constexpr double kStep_per_m = 2.9e-3;
@@ -52,8 +58,9 @@ struct Sums {
 
 class PieceGrower {
  public:
-  PieceGrower(const PointGrid& grid, const std::vector<uint8_t>& ignore)
+  PieceGrower(const PointGrid& grid, const std::vector<uint8_t>& ignore, double person_m2)
       : grid_(grid),
+        person_m2_(person_m2),
         width_(grid.width / kBlock),
         height_(grid.height / kBlock),
         sums_(static_cast<size_t>(width_ * height_)),
@@ -86,11 +93,14 @@ class PieceGrower {
     for (const size_t seed : order) {
       if (block_taken_[seed]) continue;
       Sums sums;
-      const int blocks = Grow(seed, sums);
-      constexpr int kFewBlocks = 4;  // fewer are not called flat
-      if (blocks < kFewBlocks) continue;
-      const Vector3d plane = sums.Fit();
-      if (Claim(plane, seed, static_cast<int>(pieces.size()))) pieces.push_back(MakePiece(plane));
+      const std::vector<size_t> blocks = Grow(seed, sums);
+      constexpr size_t kFewBlocks = 4;  // fewer are not called flat
+      if (blocks.size() < kFewBlocks) continue;
+      const FlatPiece piece = MakePiece(sums.Fit());
+      Claim(piece, seed, static_cast<int>(pieces.size()));
+      const std::vector<uint8_t> near = FindReach(blocks);
+      if (MayBePerson(piece, near)) ReleaseStrips(near);
+      if (!front_.empty()) pieces.push_back(piece);
     }
     HandOutCells(pieces);
     std::stable_sort(pieces.begin(), pieces.end(),
@@ -114,7 +124,7 @@ class PieceGrower {
 
   // Region growing: blocks join while they are on the current plane, which is refitted whenever
   // their number has grown by half.
-  int Grow(size_t seed, Sums& sums) {
+  std::vector<size_t> Grow(size_t seed, Sums& sums) {
     std::vector<size_t> front = {seed};
     block_taken_[seed] = 1;
     sums = sums_[seed];
@@ -138,17 +148,16 @@ class PieceGrower {
         refit_at = front.size() * 3 / 2 + 1;
       }
     }
-    return static_cast<int>(front.size());
+    return front;
   }
 
   // Assigns the cells on the plane that are connected to the seed block, in whole blocks or not, to
-  // the piece. False if there are none.
-  bool Claim(const Vector3d& plane, size_t seed, int piece) {
+  // the piece.
+  void Claim(const FlatPlane& plane, size_t seed, int piece) {
     front_.clear();
     const auto claim_if_on_plane = [&](size_t place, int x, int y) {
       if (piece_of_[place] != kFree) return;
-      if (std::abs(inverse_depth_[place] - plane.dot(Vector3d(x, y, 1.0))) >= kCellOff_per_m)
-        return;
+      if (std::abs(inverse_depth_[place] - plane.At(x, y)) >= kCellOff_per_m) return;
       piece_of_[place] = piece;
       front_.push_back({x, y});
     };
@@ -169,7 +178,67 @@ class PieceGrower {
         claim_if_on_plane(place - rows, x, y - step);
       }
     }
-    return !front_.empty();
+  }
+
+  // Whether what is near the blocks of a piece may be a person and no more.
+  bool MayBePerson(const FlatPiece& piece, const std::vector<uint8_t>& near) const {
+    if (std::abs(piece.normal.dot(grid_.up.cast<double>())) > kMostTilted) return false;
+    double area_m2 = 0, z_m = 0, cells = 0;
+    for (const auto& at : front_) {
+      if (!near[BlockOf(at)]) continue;
+      const int cell = grid_.cell(at[0], at[1]);
+      area_m2 += Area(cell, piece.normal);
+      z_m += static_cast<double>(grid_.z(cell));
+      cells += 1;
+    }
+    return area_m2 < person_m2_ && z_m > kFlatPersonFrom_m * cells;
+  }
+
+  // Takes the cells that Claim assigned far from the piece's blocks from it, unless they fill a
+  // surface: the plane of a chest goes on in strips of a curtain beside the person, and with them
+  // it would be as large as a wall.
+  void ReleaseStrips(const std::vector<uint8_t>& near) {
+    const std::vector<uint8_t> broad = FindBroadBlocks();
+    const auto is_far = [&](const std::array<int, 2>& at) { return !near[BlockOf(at)]; };
+    const auto far = std::ranges::count_if(front_, is_far);
+    const auto filled = std::ranges::count_if(
+        front_, [&](const auto& at) { return is_far(at) && broad[BlockOf(at)]; });
+    if (static_cast<double>(filled) >= kLeastBroad * static_cast<double>(far)) return;
+    for (const auto& at : front_) {
+      if (is_far(at)) piece_of_[IndexWithRim(at[0], at[1])] = kFree;
+    }
+    std::erase_if(front_, is_far);
+  }
+
+  // The blocks within reach of these (1 = yes).
+  std::vector<uint8_t> FindReach(const std::vector<size_t>& blocks) const {
+    std::vector<uint8_t> near(sums_.size(), 0);
+    for (const size_t block : blocks) {
+      const int bx = static_cast<int>(block) % width_, by = static_cast<int>(block) / width_;
+      for (int y = std::max(0, by - kReach); y <= std::min(height_ - 1, by + kReach); ++y) {
+        for (int x = std::max(0, bx - kReach); x <= std::min(width_ - 1, bx + kReach); ++x)
+          near[static_cast<size_t>(y * width_ + x)] = 1;
+      }
+    }
+    return near;
+  }
+
+  // The blocks in squares of four that the cells of Claim fill (1 = yes).
+  std::vector<uint8_t> FindBroadBlocks() const {
+    std::vector<int> cells(sums_.size(), 0);
+    for (const auto& at : front_) ++cells[BlockOf(at)];
+    std::vector<uint8_t> broad(sums_.size(), 0);
+    for (int y = 0; y + 1 < height_; ++y) {
+      for (int x = 0; x + 1 < width_; ++x) {
+        const auto first = static_cast<size_t>(y * width_ + x),
+                   below = first + static_cast<size_t>(width_);
+        const std::array<size_t, 4> square = {first, first + 1, below, below + 1};
+        if (std::ranges::any_of(square, [&](size_t block) { return cells[block] < kFewest; }))
+          continue;
+        for (const size_t block : square) broad[block] = 1;
+      }
+    }
+    return broad;
   }
 
   FlatPiece MakePiece(const Vector3d& plane) const {
@@ -212,11 +281,17 @@ class PieceGrower {
   static constexpr int kFree = -1, kTaken = -2;  // unassigned; excluded
   static constexpr int kRim = 3;  // border around the grid, excluded: as wide as Claim reaches
 
+  // The nearest for the last columns and rows, which are in none.
+  size_t BlockOf(const std::array<int, 2>& at) const {
+    const int bx = std::min(at[0] / kBlock, width_ - 1), by = std::min(at[1] / kBlock, height_ - 1);
+    return static_cast<size_t>(by * width_ + bx);
+  }
   size_t IndexWithRim(int x, int y) const {
     return static_cast<size_t>((y + kRim) * stride_ + x + kRim);
   }
 
   const PointGrid& grid_;
+  double person_m2_;
   int width_, height_;  // blocks
   std::vector<Sums> sums_;
   std::vector<double> rms_;
@@ -229,8 +304,9 @@ class PieceGrower {
 
 }  // namespace
 
-std::vector<FlatPiece> FlatPieces(const PointGrid& grid, const std::vector<uint8_t>& ignore) {
-  return PieceGrower(grid, ignore).Run();
+std::vector<FlatPiece> FlatPieces(const PointGrid& grid, const std::vector<uint8_t>& ignore,
+                                  double person_m2) {
+  return PieceGrower(grid, ignore, person_m2).Run();
 }
 
 }  // namespace ossa::depth

@@ -24,7 +24,9 @@ struct FlatPiece : FlatPlane {
 };
 
 /// Segments flat pieces among the cells with ignore = 0, largest first: region growing from the
-/// flattest blocks of 4 x 4 cells, with refits.
-std::vector<FlatPiece> FlatPieces(const PointGrid& grid, const std::vector<uint8_t>& ignore);
+/// flattest blocks of 4 x 4 cells, with refits. A piece smaller than `person_m2`, the frontal area
+/// of a large person, has no part in strips of other surfaces that cross its plane.
+std::vector<FlatPiece> FlatPieces(const PointGrid& grid, const std::vector<uint8_t>& ignore,
+                                  double person_m2);
 
 }  // namespace ossa::depth

@@ -31,7 +31,8 @@ void MarkFlatPieces(const PointGrid& grid, const std::optional<FloorPlane>& floo
                     const FurnitureOptions& options, RoomShape& shape) {
   const Eigen::Vector3d up =
       floor ? floor->coefficients.head<3>().eval() : Eigen::Vector3d::UnitY();
-  const std::vector<FlatPiece> pieces = FlatPieces(grid, shape.room);  // largest first
+  const std::vector<FlatPiece> pieces =
+      FlatPieces(grid, shape.room, options.person_m2);  // largest first
   std::vector<const FlatPiece*> walls;
   for (const FlatPiece& piece : pieces) {
     for (const int cell : piece.cells) {

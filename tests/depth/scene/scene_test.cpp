@@ -133,7 +133,8 @@ TEST(FlatPieces, FindTheWallWithItsNormalAndArea) {
   CapsuleScene scene;
   scene.planes = {{{0, 0, -1}, 3.0}};
   const PointGrid grid = GridOf(tests::Render(scene, KinectV1Camera(320, 240)));
-  const auto pieces = FlatPieces(grid, std::vector<uint8_t>(static_cast<size_t>(grid.cells()), 0));
+  const auto pieces = FlatPieces(grid, std::vector<uint8_t>(static_cast<size_t>(grid.cells()), 0),
+                                 FurnitureOptions{}.person_m2);
   ASSERT_FALSE(pieces.empty());
   EXPECT_LT(pieces[0].normal.z(), -0.999);
   // The image shows 320 / 287.5 x 240 / 287.5 of the distance: 8.36 m2 at 3 m. Cells towards the
@@ -172,6 +173,18 @@ double RoomShare(const CapsuleRender& with, const CapsuleRender& without) {
     room += shape.room[static_cast<size_t>(i)] != 0 ? 1 : 0;
   }
   return room / box;
+}
+
+// A chest's plane goes on in a strip of a curtain that crosses it a hand's breadth from the arm:
+// together they are larger than a person.
+TEST(FindRoomSurfaces, PersonBesideACurtainIsNotAWall) {
+  CapsuleScene without;
+  without.planes = tests::EmptyRoom();
+  without.planes.push_back({Eigen::Vector3d(-2.5, 0, -1).normalized(), 5.65 / std::sqrt(7.25)});
+  CapsuleScene with = without;
+  with.boxes = {{{0.08, -0.65, 4.15}, {0.53, 0.65, 4.2}}};
+  const auto camera = KinectV1Camera(320, 240);
+  EXPECT_LT(RoomShare(tests::Render(with, camera), tests::Render(without, camera)), 0.1);
 }
 
 TEST(FindRoomSurfaces, RecogniseASofaFrontDividedByLegs) {
