@@ -8,8 +8,8 @@ namespace ossa::people {
 /// The time between frames of a source, seconds.
 class FrameRate {
  public:
-  /// The shorter one of the last two steps: a frame that is lost is no change of rate. Nothing at
-  /// first, and where times stand still or run back.
+  /// The shorter one of the last two steps: a frame that is lost is no change of rate. The only
+  /// step of a recording's second frame; nothing at first, and where times stand still or run back.
   std::optional<double> Update(double time_s);
 
  private:

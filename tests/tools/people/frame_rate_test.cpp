@@ -11,12 +11,12 @@ namespace {
 TEST(FrameRate, IsTheShorterOfTheLastTwoSteps) {
   FrameRate rate;
   EXPECT_FALSE(rate.Update(1.0));
-  EXPECT_FALSE(rate.Update(1.2)) << "one step may be a gap";
+  EXPECT_NEAR(rate.Update(1.2).value(), 0.2, 1e-12) << "the only step so far";
   EXPECT_NEAR(rate.Update(1.4).value(), 0.2, 1e-12);
   EXPECT_NEAR(rate.Update(2.4).value(), 0.2, 1e-12) << "frames were lost";
   EXPECT_NEAR(rate.Update(3.4).value(), 1.0, 1e-12);
   EXPECT_FALSE(rate.Update(0.0)) << "another recording";
-  EXPECT_FALSE(rate.Update(0.2));
+  EXPECT_NEAR(rate.Update(0.2).value(), 0.2, 1e-12);
 }
 
 TEST(AdaptToFrameRate, ChangesNothingAt30Hz) {
@@ -25,7 +25,9 @@ TEST(AdaptToFrameRate, ChangesNothingAt30Hz) {
   EXPECT_EQ(adapted.initiation.step_s, usual.initiation.step_s);
   EXPECT_EQ(adapted.initiation.step_m, usual.initiation.step_m);
   EXPECT_EQ(adapted.candidates.prediction.max_step_s, usual.candidates.prediction.max_step_s);
+  EXPECT_EQ(adapted.candidates.prediction.same_depth_m, usual.candidates.prediction.same_depth_m);
   EXPECT_EQ(adapted.association.keep_cells_s, usual.association.keep_cells_s);
+  EXPECT_EQ(adapted.association.same_depth_m, usual.association.same_depth_m);
 }
 
 // Whoever stands still is accepted after three frames in a row; at 4 Hz they are 0.25 s apart.
@@ -46,27 +48,40 @@ TEST(AdaptToFrameRate, SomebodyWhoStandsIsAcceptedAt4Hz) {
   EXPECT_TRUE(is_accepted(AdaptToFrameRate({}, kStep_s).initiation));
 }
 
+constexpr double kSlowStep_s = 0.25;  // 4 Hz
+
+// Share of a person's cells that are predicted to be theirs.
+double ShareOfOwnCells(const CapsulePose& before, const CapsulePose& after,
+                       const Eigen::Vector3f& velocity_m_s, const PredictionOptions& options) {
+  const Proposed proposed = ProposeAlone(Shot({before}));
+  Track track;
+  track.velocity_m_s = velocity_m_s;
+  track.cells = proposed.candidates.at(0).region.cells;
+  track.z_m = CollectDepths(proposed.scene.grid, proposed.candidates[0].region);
+  const Proposed now = ProposeAlone(Shot({after}));
+  const Region& region = now.candidates.at(0).region;
+  const auto owner = PredictOwners(now.scene.grid, {track}, kSlowStep_s, options);
+  return static_cast<double>(CollectOverlaps(region, owner, 1)[0].size()) /
+         static_cast<double>(region.cells.size());
+}
+
 // Walks 1.2 m/s, 0.3 m between two frames: no cell in common with the frame before.
 TEST(AdaptToFrameRate, WalkersCellsArePredictedAFrameAheadAt4Hz) {
-  constexpr float kSpeed_m_s = 1.2F;
-  constexpr double kStep_s = 0.25;
-  const auto share_of = [](const PredictionOptions& options) {
-    const CapsuleRender before = Shot({PersonAt(0, 2.5)});
-    const Proposed proposed = ProposeAlone(before);
-    Track track;
-    track.velocity_m_s = {-kSpeed_m_s, 0, 0};
-    track.cells = proposed.candidates.at(0).region.cells;
-    track.z_m = CollectDepths(proposed.scene.grid, proposed.candidates[0].region);
-    const Proposed now = ProposeAlone(Shot({PersonAt(-kSpeed_m_s * kStep_s, 2.5)}));
-    const Region& region = now.candidates.at(0).region;
-    const auto owner = PredictOwners(now.scene.grid, {track}, kStep_s, options);
-    return static_cast<double>(CollectOverlaps(region, owner, 1)[0].size()) /
-           static_cast<double>(region.cells.size());
+  const Eigen::Vector3f across_m_s(-1.2F, 0, 0);
+  const auto share_of = [&](const PredictionOptions& options) {
+    return ShareOfOwnCells(PersonAt(0, 2.5), PersonAt(-0.3, 2.5), across_m_s, options);
   };
-  const double usual = share_of({}),
-               adapted = share_of(AdaptToFrameRate({}, kStep_s).candidates.prediction);
-  EXPECT_GT(adapted, 0.9);
-  EXPECT_LT(usual, 0.7);
+  EXPECT_GT(share_of(AdaptToFrameRate({}, kSlowStep_s).candidates.prediction), 0.9);
+  EXPECT_LT(share_of({}), 0.7);
+}
+
+// Seen once, so that the velocity is not known: 0.3 m farther away than any noise explains.
+TEST(AdaptToFrameRate, WhoeverWalksAwayKeepsTheirCellsAt4Hz) {
+  const auto share_of = [](const PredictionOptions& options) {
+    return ShareOfOwnCells(PersonAt(0, 2.5), PersonAt(0, 2.8), Eigen::Vector3f::Zero(), options);
+  };
+  EXPECT_GT(share_of(AdaptToFrameRate({}, kSlowStep_s).candidates.prediction), 0.9);
+  EXPECT_LT(share_of({}), 0.1);
 }
 
 }  // namespace
