@@ -10,6 +10,7 @@
 #include "tools/people/partial_people.h"
 #include "tools/people/pose_evidence.h"
 #include "tools/people/split_regions.h"
+#include "tools/people/track_initiation.h"
 
 namespace ossa::people {
 namespace {
@@ -84,18 +85,23 @@ std::vector<Detection> SplitAtHeads(const ClassificationInput& input, const Dete
                             options.candidates);
   if (cut.size() < 2) return {};
   std::vector<Detection> pieces = ClassifyEach(input, std::move(cut));
-  const double needed = options.initiation.new_person_score;
-  const auto others = std::stable_partition(
-      pieces.begin(), pieces.end(), [&](const Detection& piece) { return piece.score >= needed; });
+  const bool one_so_far = !input.scene.fresh && whole.candidate.track >= 0;
+  const auto needed = [&](const Detection& piece) {
+    return RequireOfPiece(piece, one_so_far, options.initiation);
+  };
+  const auto others =
+      std::stable_partition(pieces.begin(), pieces.end(),
+                            [&](const Detection& piece) { return piece.score >= needed(piece); });
   if (others - pieces.begin() < 2) return {};
   for (auto other = others; other != pieces.end(); ++other)
-    decided.push_back(DescribeDetection(*other, Rule::kPieceLowScore, needed));
+    decided.push_back(DescribeDetection(*other, Rule::kPieceLowScore, needed(*other)));
   pieces.erase(others, pieces.end());
   // Of a new region in a known scene each is new: furniture, too, may seem to have two heads.
   const bool may_be_people =
       input.scene.fresh || whole.candidate.track >= 0 || IsForeground(whole.candidate);
   for (Detection& piece : pieces) piece.is_piece = may_be_people;
-  decided.push_back(DescribeDetection(whole, Rule::kSplitAtHeads, needed));
+  decided.push_back(
+      DescribeDetection(whole, Rule::kSplitAtHeads, options.initiation.new_person_score));
   return pieces;
 }
 

@@ -295,6 +295,11 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
   return selected;
 }
 
+double RequireOfPiece(const Detection& piece, bool one_so_far, const InitiationOptions& options) {
+  return one_so_far && piece.candidate.track < 0 ? options.confident_score
+                                                 : options.new_person_score;
+}
+
 bool DecidePerson(bool fresh_scene, double time_s, const InitiationOptions& options,
                   std::vector<TentativeTrack>& tentative, Detection& detection) {
   if (detection.is_piece) {

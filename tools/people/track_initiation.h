@@ -35,6 +35,10 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
                                         std::vector<TentativeTrack>& tentative,
                                         std::vector<Decision>& decided);
 
+/// The score that a segment around one of several heads needs to be a person: more if its region
+/// was one person so far, whose track another segment continues. They may hold a carton.
+double RequireOfPiece(const Detection& piece, bool one_so_far, const InitiationOptions& options);
+
 /// Decides whether a detection is a person, and by which rule (`detection.decision`). Of a new
 /// person `score` becomes the mean of all observations. A rejected detection becomes a tentative
 /// track.

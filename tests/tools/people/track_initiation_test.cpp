@@ -306,6 +306,15 @@ TEST_F(NewPerson, BeyondTheMaximumIsRejectedByThatRule) {
   EXPECT_EQ(decided[0].score, 0.95);
 }
 
+// Two heads in the region of one person so far: a carton that they hold, or somebody else.
+TEST_F(NewPerson, SegmentBesideATrackedPersonNeedsAHighScore) {
+  Detection piece = Detect(Observation{0.8});
+  EXPECT_EQ(RequireOfPiece(piece, false, options_), options_.new_person_score);
+  EXPECT_EQ(RequireOfPiece(piece, true, options_), options_.confident_score);
+  piece.candidate.track = 0;
+  EXPECT_EQ(RequireOfPiece(piece, true, options_), options_.new_person_score);
+}
+
 // A rejected candidate that is seen again after a delay in some of its 100 cells: whether it is
 // classified again.
 bool IsWorthClassifying(double score, double later_s, int cells = 100) {
