@@ -127,6 +127,7 @@ struct PredictionOptions {
   size_t overlap_fraction = 4;    // a track needs an overlap of 1 / this of its or the candidate's
                                   // cells
   double in_plane_share = 0.33;   // of a track's cells in the plane of furniture; more are a person
+  double plane_score = 0.75;      // mean score of a track over which no plane grows, [0, 1]
   // Anthropometry: the middle of who lies or sits on the floor is below this height; from it to
   // head or feet, and a step.
   double lying_below_m = 0.5;

@@ -30,7 +30,8 @@ void KeepTracksInPlane(const Scene& scene, const std::vector<Track>& tracks, dou
   const auto may_keep = [&](size_t cell) {
     if (masks.owner[cell] < 0 || !shape.room[cell] || shape.floor[cell]) return false;
     const Track& track = tracks[static_cast<size_t>(masks.owner[cell])];
-    return shape.in_plane[cell] || time_s < track.certain_until_s;
+    return shape.in_plane[cell] || time_s < track.certain_until_s ||
+           track.score.value_or(0.0) >= options.plane_score;
   };
   std::vector<double> cells(tracks.size(), 0.0), of_plane(tracks.size(), 0.0);
   for (size_t i = 0; i < masks.owner.size(); ++i) {

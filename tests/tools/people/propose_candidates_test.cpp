@@ -245,5 +245,27 @@ TEST(ProposeCandidates, NewCandidateBesideATrackedPersonMayBeAPartOfIt) {
   EXPECT_TRUE(NewBeside(1.1F).isolated);
 }
 
+// A plane that grew over somebody flat before a wall takes them from no track that scored like a
+// person.
+TEST(ProposeCandidates, NoPlaneGrowsOverAPerson) {
+  const auto is_found = [](double score) {
+    PeopleState state;
+    const Proposed before = Propose(Shot({PersonAt(0, 2.5)}, 0), state);
+    EXPECT_EQ(before.candidates.size(), 1U);
+    Confirm(before, before.candidates, 0.0, state, {}, score);
+    const CapsuleRender render = Shot({PersonAt(0, 2.5)}, 1);
+    Scene scene = Propose(render, state).scene;
+    for (const int cell : before.candidates.at(0).region.cells)
+      scene.surfaces.room[static_cast<size_t>(cell)] = 1;
+    const PeopleOptions options;
+    const auto now = ProposeCandidates(render.frame, scene, state.tracks.tracks,
+                                       options.association.reidentify, options.candidates);
+    return std::any_of(now.candidates.begin(), now.candidates.end(),
+                       [](const Candidate& candidate) { return candidate.track == 0; });
+  };
+  EXPECT_TRUE(is_found(0.8));
+  EXPECT_FALSE(is_found(0.5));
+}
+
 }  // namespace
 }  // namespace ossa::people

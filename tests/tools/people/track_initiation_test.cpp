@@ -1,9 +1,6 @@
 // Track initiation and termination: synthetic detections, no forest.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "recon/filters/frame_steps.h"
 #include "tools/people/detect_people.h"
 #include "tools/people/track_initiation.h"
 
@@ -313,102 +310,6 @@ TEST_F(NewPerson, SegmentBesideATrackedPersonNeedsAHighScore) {
   EXPECT_EQ(RequireOfPiece(piece, true, options_), options_.confident_score);
   piece.candidate.track = 0;
   EXPECT_EQ(RequireOfPiece(piece, true, options_), options_.new_person_score);
-}
-
-// A rejected candidate that is seen again after a delay in some of its 100 cells: whether it is
-// classified again.
-bool IsWorthClassifying(double score, double later_s, int cells = 100) {
-  Candidate candidate;
-  TentativeTrack before;
-  for (int cell = 0; cell < 100; ++cell) {
-    before.cells.push_back(cell);
-    if (cell < cells) candidate.region.cells.push_back(cell);
-  }
-  before.mean_score = score;
-  std::vector<TentativeTrack> tentative = {before};
-  std::vector<Decision> decided;
-  const auto selected =
-      SelectCandidates({candidate}, false, later_s, PeopleOptions{}, tentative, decided);
-  EXPECT_EQ(selected.size() + decided.size(), 1U);
-  if (!decided.empty()) {
-    EXPECT_EQ(decided[0].rule, Rule::kRejectedBefore);
-  }
-  return !selected.empty();
-}
-
-TEST(SelectCandidates, RejectedCandidatesAreClassifiedAgainOnlyLater) {
-  EXPECT_FALSE(IsWorthClassifying(0.1, 0.1));
-  EXPECT_TRUE(IsWorthClassifying(0.1, 0.3));
-  EXPECT_TRUE(IsWorthClassifying(0.5, 0.1));
-  // An object is the same if most of the larger segment's cells are common.
-  EXPECT_FALSE(IsWorthClassifying(0.1, 0.1, 61));
-  EXPECT_TRUE(IsWorthClassifying(0.1, 0.1, 60));
-}
-
-// Three rejected at once: one is classified per frame, the one that waited longest, and none twice
-// before the others; none is deleted earlier.
-TEST(SelectCandidates, ClassifiesOneLowScoringCandidatePerFrame) {
-  std::vector<Candidate> candidates(3);
-  std::vector<TentativeTrack> tentative(3);
-  for (int i = 0; i < 3; ++i) {
-    candidates[static_cast<size_t>(i)].region.cells = {i};
-    tentative[static_cast<size_t>(i)].cells = {i};
-  }
-  std::vector<int> order;
-  const PeopleOptions options;
-  for (int frame = 1; frame <= 16; ++frame) {
-    std::vector<Decision> decided;
-    const auto selected =
-        SelectCandidates(candidates, false, frame / 30.0, options, tentative, decided);
-    ASSERT_LE(selected.size(), 1U) << frame;
-    EXPECT_EQ(selected.size() + decided.size(), 3U);
-    if (selected.empty()) continue;
-    EXPECT_TRUE(selected[0].recently_rejected);
-    order.push_back(selected[0].region.cells[0]);
-    tentative[static_cast<size_t>(order.back())].last_seen_s = frame / 30.0;
-  }
-  EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 0}));
-}
-
-// A camera with a low frame rate: none waits for more than twice as long.
-TEST(SelectCandidates, LowScoringCandidatesAreClassifiedWithinABound) {
-  std::vector<Candidate> candidates(3);
-  std::vector<TentativeTrack> tentative(3);
-  for (int i = 0; i < 3; ++i) {
-    candidates[static_cast<size_t>(i)].region.cells = {i};
-    tentative[static_cast<size_t>(i)].cells = {i};
-  }
-  std::vector<Decision> decided;
-  const PeopleOptions options;
-  const double late_s = options.classification.max_retry_s;
-  const auto selected = SelectCandidates(candidates, false, late_s, options, tentative, decided);
-  EXPECT_EQ(selected.size(), 3U);
-}
-
-TEST(SelectCandidates, TentativeTracksSurviveTimestampJitter) {
-  EXPECT_EQ(depth::SceneOptions{}.jitter_s, recon::FrameSteps::kJitter_s);
-  for (const auto& [later_s, is_known] : {std::pair(0.004, true), {0.006, false}}) {
-    std::vector<TentativeTrack> tentative(1);
-    tentative[0].last_seen_s = 1.0 + later_s;
-    std::vector<Decision> decided;
-    SelectCandidates({}, false, 1.0, PeopleOptions{}, tentative, decided);
-    EXPECT_EQ(!tentative.empty(), is_known) << later_s;
-  }
-}
-
-TEST(SelectCandidates, ClassifiesTheLargestIfThereAreTooMany) {
-  PeopleOptions options;
-  options.classification.max_candidates = 1;
-  Candidate large, small;
-  large.region.area_m2 = 0.5F, small.region.area_m2 = 0.1F;
-  large.region.cells = {1}, small.region.cells = {2};
-  std::vector<TentativeTrack> tentative;
-  std::vector<Decision> decided;
-  const auto selected = SelectCandidates({large, small}, true, 0, options, tentative, decided);
-  ASSERT_EQ(selected.size(), 1U);
-  EXPECT_EQ(selected[0].region.cells, large.region.cells);
-  ASSERT_EQ(decided.size(), 1U);
-  EXPECT_EQ(decided[0].rule, Rule::kCandidateLimit);
 }
 
 TEST_F(NewPerson, IsVerifiedByTheSurfaceFitIfOneFrameLeavesDoubt) {
