@@ -15,6 +15,7 @@ struct Candidate {
   std::vector<int32_t> pixels;     // v * width + u of the full image, ascending
   Region region;                   // on the grid
   int track = -1;                  // index of the track with which it overlaps, or -1
+  int owner = -1;                  // index of the track that most of its cells belonged to, or -1
   std::vector<int> absorbed;       // other tracks that proved to be parts of the same person
   bool may_return = false;         // a lost track is expected near here
   bool recently_rejected = false;  // it had a low score in a recent frame

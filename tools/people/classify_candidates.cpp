@@ -11,6 +11,7 @@
 #include "tools/people/pose_evidence.h"
 #include "tools/people/split_regions.h"
 #include "tools/people/track_initiation.h"
+#include "tools/people/track_prediction.h"
 
 namespace ossa::people {
 namespace {
@@ -35,6 +36,15 @@ bool IsBetterMerged(const Detection& whole, const Detection& a, const Detection&
   return score >= more - (stacked ? options.classification.max_stacked_score_loss : 0.0);
 }
 
+// Whether `part` belongs to somebody else than the person of `track`.
+bool IsSomebodyElse(const ClassificationInput& input, const Detection& part,
+                    const Detection& track) {
+  const PeopleOptions& options = input.options;
+  return MayReturnBeside(input.scene.grid, part, track, input.tracks, input.frame.time_s,
+                         options) ||
+         IsOfOtherTrack(part, track, input.tracks, options.classification);
+}
+
 // Two detections merged, if the result is one person. Long-lived tracks are left alone.
 std::optional<Detection> TryMerge(const ClassificationInput& input, const Detection& a,
                                   const Detection& b) {
@@ -44,6 +54,7 @@ std::optional<Detection> TryMerge(const ClassificationInput& input, const Detect
   const bool one_region = a.candidate.region_index == b.candidate.region_index;
   if (!one_region && !MayBePartsOfOnePerson(input.scene, input.options, a, b, stacked)) return {};
   if (std::min(a.age, b.age) > options.mature_age) return {};
+  if (IsSomebodyElse(input, a, b) || IsSomebodyElse(input, b, a)) return {};
   if (Occludes(input.scene, a.candidate, b.candidate, occluder) ||
       Occludes(input.scene, b.candidate, a.candidate, occluder))
     return {};
@@ -158,6 +169,24 @@ bool MayBePartsOfOnePerson(const Scene& scene, const PeopleOptions& options, con
   if (stacked && less >= person) return true;
   return std::max(a.age, b.age) <= options.initiation.early_age && more >= person &&
          MeetAlongRim(scene, a.candidate, b.candidate, options.classification);
+}
+
+bool MayReturnBeside(const PointGrid& grid, const Detection& part, const Detection& track,
+                     const std::vector<Track>& tracks, double time_s,
+                     const PeopleOptions& options) {
+  if (part.candidate.track >= 0 || !part.candidate.may_return) return false;
+  if (track.candidate.track < 0 || track.age <= options.classification.mature_age) return false;
+  return MeasureOffset_m(grid, tracks[static_cast<size_t>(track.candidate.track)],
+                         part.candidate.region, time_s,
+                         options.candidates.prediction) > options.candidates.same_person_m;
+}
+
+bool IsOfOtherTrack(const Detection& part, const Detection& track, const std::vector<Track>& tracks,
+                    const ClassificationOptions& options) {
+  const int owner = part.candidate.owner;
+  return part.candidate.track < 0 && owner >= 0 && track.candidate.track >= 0 &&
+         owner != track.candidate.track &&
+         tracks[static_cast<size_t>(owner)].age > options.mature_age;
 }
 
 bool MayBeTwoPeople(const Detection& whole, const ClassificationOptions& options) {

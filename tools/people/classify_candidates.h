@@ -38,6 +38,15 @@ bool MayBePartsOfOnePerson(const Scene& scene, const PeopleOptions& options, con
 bool AreStacked(const Scene& scene, const PeopleOptions& options, const Detection& a,
                 const Detection& b);
 
+/// Whether `part` may be a lost person who comes into view again, and not a part of the long-lived
+/// `track`: it is not where that is predicted to be (camera space at `time_s`).
+bool MayReturnBeside(const PointGrid& grid, const Detection& part, const Detection& track,
+                     const std::vector<Track>& tracks, double time_s, const PeopleOptions& options);
+
+/// Whether `part` was cut off a long-lived track other than `track`.
+bool IsOfOtherTrack(const Detection& part, const Detection& track, const std::vector<Track>& tracks,
+                    const ClassificationOptions& options = {});
+
 /// Whether a detection with two heads may be split. False for a long-lived track whose surface did
 /// not grow: the second head is a misclassification, as on the back of a person who bends down.
 bool MayBeTwoPeople(const Detection& whole, const ClassificationOptions& options);

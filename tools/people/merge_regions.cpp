@@ -71,11 +71,36 @@ size_t FindTrackBehind(const PointGrid& grid, const Region& piece, const std::ve
   return tracks.size();
 }
 
+// Tracks that own no cell, as indices.
+std::vector<size_t> FindUnseenTracks(const std::vector<int>& owner,
+                                     const std::vector<Track>& tracks) {
+  std::vector<uint8_t> seen(tracks.size(), 0);
+  for (const int track : owner) {
+    if (track >= 0) seen[static_cast<size_t>(track)] = 1;
+  }
+  std::vector<size_t> lost;
+  for (size_t t = 0; t < tracks.size(); ++t) {
+    if (!seen[t]) lost.push_back(t);
+  }
+  return lost;
+}
+
+// Whether a region is not where `other` is, but where an unseen track may come into view again.
+bool MayBeLostTrack(const PointGrid& grid, const Region& piece, const Track& other,
+                    const std::vector<size_t>& unseen, const std::vector<Track>& tracks,
+                    double time_s, const CandidateOptions& options) {
+  return MeasureOffset_m(grid, other, piece, time_s, options.prediction) > options.same_person_m &&
+         std::any_of(unseen.begin(), unseen.end(), [&](size_t t) {
+           return IsExpectedAt(tracks[t], piece, time_s, options.prediction);
+         });
+}
+
 }  // namespace
 
 std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regions,
                                 const RoomShape& shape, const std::vector<int>& owner,
-                                size_t tracks, const CandidateOptions& options) {
+                                const std::vector<Track>& tracks, double time_s,
+                                const CandidateOptions& options) {
   std::vector<int> label(static_cast<size_t>(grid.cells()), -1);
   std::vector<Region> big, small;
   for (Region& region : regions) {
@@ -89,11 +114,12 @@ std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regio
   std::vector<int> owner_of_big;
   std::vector<std::optional<FlatPlane>> plane;
   for (const Region& region : big) {
-    owner_of_big.push_back(FindMainOwner(region, owner, tracks));
+    owner_of_big.push_back(FindMainOwner(region, owner, tracks.size()));
     plane.push_back(FitWholePlane(region, shape, options.occluder));
   }
+  const std::vector<size_t> unseen = FindUnseenTracks(owner, tracks);
   for (const Region& piece : small) {
-    const int mine = FindMainOwner(piece, owner, tracks);
+    const int mine = FindMainOwner(piece, owner, tracks.size());
     int best = -1;
     float best_gap = options.merge.reach_m;
     const std::vector<float> gaps_m =
@@ -101,6 +127,10 @@ std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regio
     for (size_t i = 0; i < owner_of_big.size(); ++i) {
       if (mine >= 0 && owner_of_big[i] >= 0 && mine != owner_of_big[i]) continue;
       if (plane[i] && StandsBehind(grid, piece, *plane[i], options.occluder)) continue;
+      if (mine < 0 && owner_of_big[i] >= 0 &&
+          MayBeLostTrack(grid, piece, tracks[static_cast<size_t>(owner_of_big[i])], unseen, tracks,
+                         time_s, options))
+        continue;
       if (gaps_m[i] < best_gap) best_gap = gaps_m[i], best = static_cast<int>(i);
     }
     if (best >= 0) {

@@ -11,10 +11,12 @@ namespace ossa::people {
 
 /// Merges small regions (extended hands, forearms cut off by the projector's shadow, legs below a
 /// table) into the nearest large region within an arm's reach. Excluded are regions of different
-/// tracks, and regions behind a planar occluder, such as a person behind the back of a seat.
+/// tracks, regions behind a planar occluder, such as a person behind the back of a seat, and
+/// regions where a lost track may come into view again behind the large one.
 std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regions,
                                 const RoomShape& shape, const std::vector<int>& owner,
-                                size_t tracks, const CandidateOptions& options = {});
+                                const std::vector<Track>& tracks, double time_s,
+                                const CandidateOptions& options = {});
 
 /// Merges regions that are mostly owned by the same track (an arm of a nearer person may cut a body
 /// in two), and regions that appear beside a partly occluded track. Largest first.

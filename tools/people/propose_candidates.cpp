@@ -101,7 +101,7 @@ std::vector<Region> FindRegions(const Scene& scene, const std::vector<Track>& tr
   }
   auto regions = FindConnectedRegions(grid, masks.ignored, options.speck_m2);
   regions =
-      MergePieces(grid, std::move(regions), scene.surfaces, masks.owner, tracks.size(), options);
+      MergePieces(grid, std::move(regions), scene.surfaces, masks.owner, tracks, time_s, options);
   regions =
       MergeBelowOccluder(grid, std::move(regions), tracks.size(), masks.owner, options.occlusion);
   regions = MergeBesideOccluder(grid, std::move(regions), scene.background.foreground, masks.owner,
@@ -157,6 +157,8 @@ void SplitIntoCandidates(const DepthFrame& frame, const Scene& scene, const Cell
     }
     result.candidates.push_back(
         MakeCandidate(frame, scene, std::move(piece), !seeds.empty(), region_index, options));
+    result.candidates.back().owner =
+        FindMainOwner(result.candidates.back().region, masks.owner, tracks.size());
   }
 }
 
@@ -227,10 +229,10 @@ void MarkPossibleParts(const PointGrid& grid, const std::vector<Track>& tracks, 
     if (candidate.track >= 0) continue;
     for (const Candidate& other : candidates) {
       if (other.track < 0) continue;
-      const Vector3f off_m = PredictMean_m(tracks[static_cast<size_t>(other.track)], time_s,
-                                           options.prediction.max_prediction_s) -
-                             candidate.region.mean_m;
-      if (grid.OnFloor(off_m).norm() < options.same_person_m) candidate.foreground_share = 0;
+      const Track& track = tracks[static_cast<size_t>(other.track)];
+      if (MeasureOffset_m(grid, track, candidate.region, time_s, options.prediction) <
+          options.same_person_m)
+        candidate.foreground_share = 0;
       if (MeasureGapOnFloor_m(grid, candidate.region, other.region) < options.beside_person_m)
         candidate.isolated = false;
     }

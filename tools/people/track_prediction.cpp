@@ -57,15 +57,25 @@ int FindMainOwner(const Region& region, const std::vector<int>& owner, size_t tr
   return -1;
 }
 
-bool MayReturnAs(const Track& track, const Region& region, double time_s, double forget_s,
-                 const PredictionOptions& options) {
+float MeasureOffset_m(const PointGrid& grid, const Track& track, const Region& region,
+                      double time_s, const PredictionOptions& options) {
+  return grid.OnFloor(PredictMean_m(track, time_s, options.max_prediction_s) - region.mean_m)
+      .norm();
+}
+
+bool IsExpectedAt(const Track& track, const Region& region, double time_s,
+                  const PredictionOptions& options) {
   const double gone_s = time_s - track.last_seen_s;
-  if (gone_s >= forget_s) return false;
   const double gate_m = static_cast<double>(options.return_gate_m) +
                         static_cast<double>(options.return_speed_m_s) * std::max(0.0, gone_s);
   Vector3f off = PredictMean_m(track, time_s, options.max_prediction_s) - region.mean_m;
   off.y() *= options.height_weight;
   return static_cast<double>(off.norm()) < gate_m;
+}
+
+bool MayReturnAs(const Track& track, const Region& region, double time_s, double forget_s,
+                 const PredictionOptions& options) {
+  return time_s - track.last_seen_s < forget_s && IsExpectedAt(track, region, time_s, options);
 }
 
 bool HasMoved(const Vector3f& first_mean_m, float first_m2, const Region& now,

@@ -21,6 +21,15 @@ std::vector<std::vector<int>> CollectOverlaps(const Region& region, const std::v
 /// cells.
 int FindMainOwner(const Region& region, const std::vector<int>& owner, size_t tracks);
 
+/// Horizontal distance from a track's predicted centroid to a region's.
+float MeasureOffset_m(const PointGrid& grid, const Track& track, const Region& region,
+                      double time_s, const PredictionOptions& options = {});
+
+/// Whether a track is expected near a region now, in a gate that grows with the time since it was
+/// last seen.
+bool IsExpectedAt(const Track& track, const Region& region, double time_s,
+                  const PredictionOptions& options = {});
+
 /// Whether a lost track is expected near a region now. It is deleted after `forget_s`.
 bool MayReturnAs(const Track& track, const Region& region, double time_s, double forget_s,
                  const PredictionOptions& options = {});

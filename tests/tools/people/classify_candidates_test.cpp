@@ -164,6 +164,45 @@ TEST(IsPoorBodyFit, ThresholdIsHigherWhereTheNetworkDisagrees) {
   EXPECT_FALSE(IsPoorBodyFit(lamp, near, false, options));
 }
 
+// A long-lived track, a second one, and a part that belongs to neither so far.
+struct TracksAndPart {
+  TracksAndPart() {
+    tracks[0].mean_m = {0, 0, 3.0F};
+    tracks[0].age = tracks[1].age = user.age = options.classification.mature_age + 1;
+    user.candidate.track = 0;
+    part.candidate.region.mean_m = {0.1F, 0, 3.6F};
+    part.candidate.may_return = true;
+  }
+  bool MayReturn() const { return MayReturnBeside(PointGrid{}, part, user, tracks, 0.0, options); }
+  PeopleOptions options;
+  std::vector<Track> tracks{2};
+  Detection user, part;
+};
+
+TEST(MayReturnBeside, IsWhereALostTrackIsExpectedAndTheUserIsNot) {
+  EXPECT_TRUE(TracksAndPart().MayReturn());
+  TracksAndPart near;
+  near.part.candidate.region.mean_m.z() = 3.2F;
+  EXPECT_FALSE(near.MayReturn());
+  TracksAndPart nobody_lost;
+  nobody_lost.part.candidate.may_return = false;
+  EXPECT_FALSE(nobody_lost.MayReturn());
+  TracksAndPart young;  // it may be a chance detection of half a person
+  young.user.age = young.options.classification.mature_age;
+  EXPECT_FALSE(young.MayReturn());
+}
+
+TEST(IsOfOtherTrack, IsWhatWasCutOffALongLivedTrack) {
+  TracksAndPart scene;
+  EXPECT_FALSE(IsOfOtherTrack(scene.part, scene.user, scene.tracks));  // nobody's
+  scene.part.candidate.owner = 0;
+  EXPECT_FALSE(IsOfOtherTrack(scene.part, scene.user, scene.tracks));
+  scene.part.candidate.owner = 1;
+  EXPECT_TRUE(IsOfOtherTrack(scene.part, scene.user, scene.tracks));
+  scene.tracks[1].age = 1;
+  EXPECT_FALSE(IsOfOtherTrack(scene.part, scene.user, scene.tracks));
+}
+
 TEST(MayBeTwoPeople, ALongLivedTrackIsNotSplitWhileItsSurfaceDoesNotGrow) {
   ClassificationOptions options;
   Detection whole;
