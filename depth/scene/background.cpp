@@ -91,7 +91,8 @@ std::vector<uint8_t> FindForeground(const PointGrid& grid, const BackgroundState
     const auto n = static_cast<size_t>(i);
     const bool valid = grid.valid(i);
     const bool nearer = IsNearer(grid.z(i), state.surface_m[n], options);
-    foreground[n] = valid & (state.steady[n] > 0) & nearer;
+    foreground[n] =
+        valid & (((state.steady[n] > 0) & nearer) | (state.empty[n] >= options.empty_frames));
   }
   return foreground;
 }
@@ -111,13 +112,21 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
              .height = grid.height,
              .surface_m = std::vector<float>(cells, 0.0F),
              .steady = std::vector<uint8_t>(cells, 0),
+             .empty = std::vector<uint8_t>(cells, 0),
              .claimed = {}};
   }
   state.claimed = claimed;
   for (int i = 0; i < grid.cells(); ++i) {
     const auto n = static_cast<size_t>(i);
     const float z = grid.farther(i) ? grid.max_depth_m : grid.z(i);
-    if (z <= 0) continue;
+    if (z <= 0) {
+      if (state.surface_m[n] <= 0 && state.empty[n] < kSaturated) ++state.empty[n];
+      continue;
+    }
+    if (state.empty[n] > 0) {
+      if (!claimed[n]) --state.empty[n];  // eventually furniture that was put there
+      continue;
+    }
     if (state.steady[n] > 0 && SameSurface(z, state.surface_m[n])) {
       if (claimed[n]) continue;
       state.surface_m[n] += 0.1F * (z - state.surface_m[n]);

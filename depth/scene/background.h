@@ -13,6 +13,8 @@ struct BackgroundState {
   int width = 0, height = 0;     // size of its grid, cells
   std::vector<float> surface_m;  // per cell: z of the surface, metres, 0 = unknown
   std::vector<uint8_t> steady;   // per cell: frames in which it was seen, saturating
+  std::vector<uint8_t> empty;    // per cell: frames without a reading before the first one,
+                                 // saturating: nothing is there within the sensor's range
   std::vector<uint8_t> claimed;  // per cell: 1 if a person's in the last frame
 };
 
@@ -34,6 +36,9 @@ struct BackgroundOptions {
   /// ... within this share of the depth tolerance: one and a half steps of a structured-light
   /// sensor.
   float certain_tolerance = 0.5F;
+  /// Frames without any reading, in [1, 250], after which a surface in a cell is foreground: glass,
+  /// dark cloth and noise have some sooner.
+  int empty_frames = 20;
   /// Foreground is nearer than the surface behind it by this distance beyond the depth tolerance,
   /// metres.
   float foreground_m = 0.1F;
@@ -51,7 +56,8 @@ struct BackgroundMasks {
   std::vector<uint8_t> steady;      // background seen for `steady_frames`
   std::vector<uint8_t> known;       // the unclaimed surface of the frame before
   std::vector<uint8_t> certain;     // the same for `certain_frames`, within little more than noise
-  std::vector<uint8_t> foreground;  // clearly in front of a known surface: it has moved here
+  std::vector<uint8_t> foreground;  // clearly in front of a known surface, or where nothing was: it
+                                    // has moved here
   double certain_share = 0;         // of the measured cells, [0, 1]
 };
 BackgroundMasks CompareWithBackground(const PointGrid& grid, const BackgroundState& state,

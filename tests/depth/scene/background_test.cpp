@@ -59,12 +59,17 @@ TEST(Foreground, DetectsAPersonInFrontOfATooFarBackground) {
   EXPECT_GT(MeasureShare(CellsOfPerson(render, now), foreground), 0.85);
 }
 
-// A wall at `z_m` in every cell of 40 x 30, seen for so many frames; `claimed`: by people.
-void See(float z_m, int frames, BackgroundState& state, bool claimed = false) {
+// A wall at `z_m` in every cell of 40 x 30; 0 for no reading.
+PointGrid WallAt(float z_m) {
   DepthFrame frame;
   frame.camera = KinectV1Camera(40, 30);
   frame.depth_mm.assign(40 * 30, static_cast<uint16_t>(std::lround(1000 * z_m)));
-  const PointGrid grid = MakePointGrid(frame.view(), frame.camera, 6.0F);
+  return MakePointGrid(frame.view(), frame.camera, 6.0F);
+}
+
+// The wall, seen for so many frames; `claimed`: by people.
+void See(float z_m, int frames, BackgroundState& state, bool claimed = false) {
+  const PointGrid grid = WallAt(z_m);
   const std::vector<uint8_t> claims(static_cast<size_t>(grid.cells()), claimed ? 1 : 0);
   for (int f = 0; f < frames; ++f) {
     ForgetIfSensorMoved(grid, state);
@@ -72,15 +77,41 @@ void See(float z_m, int frames, BackgroundState& state, bool claimed = false) {
   }
 }
 
-// Whether a wall at this depth is the background.
-bool IsBackground(float z_m, const BackgroundState& state) {
-  DepthFrame frame;
-  frame.camera = KinectV1Camera(40, 30);
-  frame.depth_mm.assign(40 * 30, static_cast<uint16_t>(std::lround(1000 * z_m)));
-  const auto masks = CompareWithBackground(MakePointGrid(frame.view(), frame.camera, 6.0F), state);
-  const auto count = std::count(masks.steady.begin(), masks.steady.end(), 1);
+// Whether a mask has all cells; it has none otherwise.
+bool HasAll(const std::vector<uint8_t>& mask) {
+  const auto count = std::count(mask.begin(), mask.end(), 1);
   EXPECT_TRUE(count == 0 || count == 40 * 30) << count;
   return count > 0;
+}
+
+// Whether a wall at this depth is the background, or foreground.
+bool IsBackground(float z_m, const BackgroundState& state) {
+  return HasAll(CompareWithBackground(WallAt(z_m), state).steady);
+}
+bool IsForeground(float z_m, const BackgroundState& state) {
+  return HasAll(CompareWithBackground(WallAt(z_m), state).foreground);
+}
+
+TEST(Foreground, IsWhatAppearsWhereNothingWasForTwentyFrames) {
+  BackgroundState state;
+  See(0.0F, 19, state);
+  EXPECT_FALSE(IsForeground(2.5F, state));
+  See(0.0F, 1, state);
+  EXPECT_TRUE(IsForeground(2.5F, state));
+  See(2.5F, 60, state, true);  // a person stands there
+  EXPECT_TRUE(IsForeground(2.5F, state));
+  See(2.5F, 1, state);
+  EXPECT_FALSE(IsForeground(2.5F, state));
+  See(2.5F, 40, state);  // it was a chair
+  EXPECT_TRUE(IsBackground(2.5F, state));
+}
+
+TEST(Foreground, IsNotBehindASurfaceThatHadNoReadingForAWhile) {
+  BackgroundState state;
+  See(3.0F, 1, state);
+  See(0.0F, 60, state);
+  EXPECT_FALSE(IsForeground(3.5F, state));
+  EXPECT_TRUE(IsForeground(2.5F, state));
 }
 
 TEST(Background, ShareThatIsCertainGrowsFromNothingToAllButThePerson) {
