@@ -105,7 +105,7 @@ void ForgetIfSensorMoved(const PointGrid& grid, BackgroundState& state,
 }
 
 void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
-                     BackgroundState& state) {
+                     BackgroundState& state, const BackgroundOptions& options) {
   const auto cells = static_cast<size_t>(grid.cells());
   if (state.width != grid.width || state.height != grid.height) {
     state = {.width = grid.width,
@@ -123,7 +123,7 @@ void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
       if (state.surface_m[n] <= 0 && state.empty[n] < kSaturated) ++state.empty[n];
       continue;
     }
-    if (state.empty[n] > 0) {
+    if (state.empty[n] >= options.empty_frames) {
       if (!claimed[n]) --state.empty[n];  // eventually furniture that was put there
       continue;
     }

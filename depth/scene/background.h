@@ -71,6 +71,6 @@ float MeasureForegroundArea_m2(const PointGrid& grid, const std::vector<int>& ce
 /// Updates the model with a frame. `claimed` (one entry per cell) marks the cells of people, which
 /// are never learned.
 void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
-                     BackgroundState& state);
+                     BackgroundState& state, const BackgroundOptions& options = {});
 
 }  // namespace ossa::depth

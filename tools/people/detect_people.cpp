@@ -115,7 +115,8 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
   MeasurePeople(input, people);
   const std::vector<int> ids =
       AssociateTracks(scene, rivals, people, frame.time_s, state.tracks, options.association);
-  depth::LearnBackground(scene.grid, MarkCells(scene.grid, people), state.scene.background);
+  depth::LearnBackground(scene.grid, MarkCells(scene.grid, people), state.scene.background,
+                         options.scene.background);
   AddPeople(frame.camera, ids, std::move(people), result);
   result.decisions.tracks = SummarizeTracks(tracks, ids);
   DistributeTime(watch.milliseconds(), classification_ms, result);
