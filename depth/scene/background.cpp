@@ -91,8 +91,9 @@ std::vector<uint8_t> FindForeground(const PointGrid& grid, const BackgroundState
     const auto n = static_cast<size_t>(i);
     const bool valid = grid.valid(i);
     const bool nearer = IsNearer(grid.z(i), state.surface_m[n], options);
-    foreground[n] =
-        valid & (((state.steady[n] > 0) & nearer) | (state.empty[n] >= options.empty_frames));
+    const bool in_front = (state.steady[n] > 0) & nearer;
+    const bool alone = state.empty[n] >= options.empty_frames;
+    foreground[n] = valid & (in_front | alone);
   }
   return foreground;
 }
