@@ -72,7 +72,6 @@ std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& fram
     if (!IsPersonSized(piece, options)) continue;
     Candidate part;
     part.pixels = CollectPixels(frame, scene.grid, piece);
-    part.track = pieces.empty() ? candidate.track : -1;
     part.recently_rejected = candidate.recently_rejected;
     part.has_head = true;
     part.region_index = candidate.region_index;

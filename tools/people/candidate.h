@@ -49,8 +49,9 @@ Decision DescribeRegion(const Region& region, Rule rule);
 Candidate MakeCandidate(const DepthFrame& frame, const Scene& scene, Region segment, bool has_head,
                         int region_index, const CandidateOptions& options);
 
-/// Splits a candidate into one per head (camera space, metres), without segments too small for a
-/// person; returns it unchanged where fewer than two of the heads lie on it.
+/// Splits a candidate into one per head (camera space, metres), none with its track, without
+/// segments too small for a person; returns it unchanged where fewer than two of the heads lie on
+/// it.
 std::vector<Candidate> SplitCandidate(const Scene& scene, const DepthFrame& frame,
                                       const Candidate& candidate,
                                       const std::vector<Eigen::Vector3d>& heads_m,

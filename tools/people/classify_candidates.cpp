@@ -95,6 +95,12 @@ std::vector<Detection> SplitAtHeads(const ClassificationInput& input, const Dete
   auto cut = SplitCandidate(input.scene, input.frame, whole.candidate, whole.evidence.heads_m,
                             options.candidates);
   if (cut.size() < 2) return {};
+  const int track = whole.candidate.track;
+  if (track >= 0) {
+    cut[FindSegmentOf(input.scene.grid, input.tracks[static_cast<size_t>(track)], cut,
+                      input.frame.time_s, options.candidates.prediction)]
+        .track = track;
+  }
   std::vector<Detection> pieces = ClassifyEach(input, std::move(cut));
   const bool one_so_far = !input.scene.fresh && whole.candidate.track >= 0;
   const auto needed = [&](const Detection& piece) {
@@ -108,9 +114,11 @@ std::vector<Detection> SplitAtHeads(const ClassificationInput& input, const Dete
     decided.push_back(DescribeDetection(*other, Rule::kPieceLowScore, needed(*other)));
   pieces.erase(others, pieces.end());
   // Of a new region in a known scene each is new: furniture, too, may seem to have two heads.
-  const bool may_be_people =
-      input.scene.fresh || whole.candidate.track >= 0 || IsForeground(whole.candidate);
-  for (Detection& piece : pieces) piece.is_piece = may_be_people;
+  const bool known = !input.scene.fresh && !IsForeground(whole.candidate);
+  for (Detection& piece : pieces) {
+    piece.is_piece = !known || track >= 0;
+    piece.is_cut_off = known && piece.candidate.track < 0;
+  }
   decided.push_back(
       DescribeDetection(whole, Rule::kSplitAtHeads, options.initiation.new_person_score));
   return pieces;
@@ -187,6 +195,16 @@ bool IsOfOtherTrack(const Detection& part, const Detection& track, const std::ve
   return part.candidate.track < 0 && owner >= 0 && track.candidate.track >= 0 &&
          owner != track.candidate.track &&
          tracks[static_cast<size_t>(owner)].age > options.mature_age;
+}
+
+size_t FindSegmentOf(const PointGrid& grid, const Track& track,
+                     const std::vector<Candidate>& segments, double time_s,
+                     const PredictionOptions& options) {
+  const std::vector<int> owner = PredictOwners(grid, {track}, time_s, options);
+  const auto covered = [&](const Candidate& segment) {
+    return CollectOverlaps(segment.region, owner, 1).front().size();
+  };
+  return static_cast<size_t>(std::ranges::max_element(segments, {}, covered) - segments.begin());
 }
 
 bool MayBeTwoPeople(const Detection& whole, const ClassificationOptions& options) {

@@ -47,6 +47,12 @@ bool MayReturnBeside(const PointGrid& grid, const Detection& part, const Detecti
 bool IsOfOtherTrack(const Detection& part, const Detection& track, const std::vector<Track>& tracks,
                     const ClassificationOptions& options = {});
 
+/// The segment, as an index, that covers most of the cells where the track is predicted to be; the
+/// first of equals. The head that the forest is most certain of may be another one's.
+size_t FindSegmentOf(const PointGrid& grid, const Track& track,
+                     const std::vector<Candidate>& segments, double time_s,
+                     const PredictionOptions& options = {});
+
 /// Whether a detection with two heads may be split. False for a long-lived track whose surface did
 /// not grow: the second head is a misclassification, as on the back of a person who bends down.
 bool MayBeTwoPeople(const Detection& whole, const ClassificationOptions& options);

@@ -41,8 +41,7 @@ void ApplyPoseNetwork(const ClassificationInput& input, Detection& detection) {
   // Who comes into a known scene, or back, is new but hardly furniture: like somebody tracked, they
   // can only gain by the network, which sees less of who is half hidden.
   const bool comes =
-      is_new && (IsForeground(detection.candidate) || detection.candidate.may_return ||
-                 (detection.is_piece && !input.scene.fresh));
+      is_new && (IsForeground(detection.candidate) || detection.candidate.may_return);
   const InitiationOptions& initiation = options.initiation;
   const double enough = comes ? initiation.new_person_score : initiation.confident_score;
   const bool gains_only = comes || !is_new;
@@ -89,6 +88,8 @@ TrackPrior MakeTrackPrior(const Candidate& candidate, const std::vector<Track>& 
 bool IsVerifiedByPose(const Detection& detection) {
   return detection.verifier == Verifier::kForestAndNetwork;
 }
+
+bool IsContested(const Detection& detection) { return detection.verifier == Verifier::kSurfaceFit; }
 
 Decision DescribeDetection(const Detection& detection, Rule rule, double needed_score) {
   Decision decision = DescribeRegion(detection.candidate.region, rule);

@@ -35,10 +35,11 @@ struct Detection {
   Candidate candidate;
   ForestEvidence evidence;
   TrackPrior prior;
-  double score = 0.0;      // probability of being a person: weighted mean over the frames, [0, 1]
-  int age = 1;             // detections of the track, this one included
-  bool is_piece = false;   // a segment around one of several heads
-  bool is_joined = false;  // merged from regions that are no person by themselves
+  double score = 0.0;       // probability of being a person: weighted mean over the frames, [0, 1]
+  int age = 1;              // detections of the track, this one included
+  bool is_piece = false;    // a segment around one of several heads
+  bool is_cut_off = false;  // ... and was somebody else's who is tracked, where nothing has moved
+  bool is_joined = false;   // merged from regions that are no person by themselves
   bool was_withdrawn = false;  // accepted before, and withdrawn because no fitted body explained it
   Verifier verifier = Verifier::kForest;
   std::optional<recon::NetworkPose> pose{};  // joints by the pose network, where it was applied
@@ -50,6 +51,9 @@ struct Detection {
 
 /// Whether the score combines the forest and the pose network.
 bool IsVerifiedByPose(const Detection& detection);
+
+/// Whether the forest is confident and the network is not, so that the surface fit decides.
+bool IsContested(const Detection& detection);
 
 /// The decision record of a detection.
 Decision DescribeDetection(const Detection& detection, Rule rule, double needed_score);

@@ -78,6 +78,7 @@ void UpdateTentative(const Detection& detection, double time_s, const Initiation
   const Eigen::Vector3f way_m = region.mean_m - track.first_mean_m;
   track.walked_m = static_cast<double>(std::hypot(way_m.x(), way_m.z()));
   track.moved = track.moved || HasMoved(track.first_mean_m, track.first_m2, region);
+  track.was_contested = track.was_contested || IsContested(detection);
   track.was_foreground = track.was_foreground || detection.candidate.foreground_m2 > 0;
 }
 
@@ -159,11 +160,13 @@ double RequireOnAverage(const TentativeTrack& track, const Detection& detection,
   if (little_seen && candidate.isolated && track.walked_m > options.walked_m)
     return options.walked_score;
   if (little_seen && track.moved) return options.foreground_mean_score;
+  // A surface that grows without being foreground may be uncovered by a person who passes.
+  const bool doubtful = track.was_rejected || !track.was_foreground;
+  // Contested observations have the forest's score: the mean is no longer one by the network.
+  if (track.was_contested && (!track.moved || doubtful)) return options.confident_score;
   if (!track.moved)
     return IsVerifiedByPose(detection) ? RequireByPose(detection, options)
                                        : options.confident_score;
-  // A surface that grows without being foreground may be uncovered by a person who passes.
-  const bool doubtful = track.was_rejected || !track.was_foreground;
   return doubtful ? options.doubtful_mean_score : options.new_person_score;
 }
 
@@ -174,6 +177,13 @@ Decision DescribeTentative(const Detection& detection, const TentativeTrack& tra
   decision.observations = track.observations;
   decision.mean_score = track.mean_score;
   return decision;
+}
+
+// Whether a segment around a head may be accepted in one frame. One that is cut off somebody
+// tracked may be a thing beside them: both models must be confident.
+bool MayPassAsPiece(const Detection& piece, const InitiationOptions& options) {
+  if (!piece.is_piece) return false;
+  return !piece.is_cut_off || (IsVerifiedByPose(piece) && piece.score >= options.confident_score);
 }
 
 // Segments around heads must each score like a person.
@@ -264,6 +274,7 @@ TentativeTrack StartTentative(const Detection& detection, double time_s) {
   track.last_seen_s = time_s;
   track.mean_score = detection.score;
   track.is_foreground = IsForeground(detection.candidate);
+  track.was_contested = IsContested(detection);
   return track;
 }
 
@@ -302,7 +313,7 @@ double RequireOfPiece(const Detection& piece, bool one_so_far, const InitiationO
 
 bool DecidePerson(bool fresh_scene, double time_s, const InitiationOptions& options,
                   std::vector<TentativeTrack>& tentative, Detection& detection) {
-  if (detection.is_piece) {
+  if (MayPassAsPiece(detection, options)) {
     detection.decision = DecidePiece(detection, options);
   } else if (detection.age > 1) {
     detection.decision = DecideTracked(detection, time_s, options, tentative);

@@ -21,6 +21,7 @@ struct TentativeTrack {
   int unbroken_observations = 1;  // consecutive ones, to the last
   bool was_rejected = false;      // it was accepted before, and rejected later
   bool was_withdrawn = false;     // ... because no fitted body explained it
+  bool was_contested = false;     // forest and network disagreed about an observation
   bool was_foreground = false;    // some of it was foreground
   bool is_foreground = false;     // most of it was foreground in the last observation
 };

@@ -203,6 +203,23 @@ TEST(IsOfOtherTrack, IsWhatWasCutOffALongLivedTrack) {
   EXPECT_FALSE(IsOfOtherTrack(scene.part, scene.user, scene.tracks));
 }
 
+TEST(FindSegmentOf, IsWhereTheTrackIsPredictedAndNotTheFirstHead) {
+  PointGrid grid;
+  grid.width = 4, grid.height = 1;
+  grid.camera.fx = 500;
+  grid.point_m.assign(4, Eigen::Vector3f(0, 0, 2));
+  Track track;
+  track.cells = {1, 2, 3};
+  track.z_m = {2, 2, 2};
+  std::vector<Candidate> segments(2);
+  segments[0].region.cells = {0, 1};
+  segments[1].region.cells = {2, 3};
+  EXPECT_EQ(FindSegmentOf(grid, track, segments, 0.0), 1U);
+  track.cells = {1, 2};
+  track.z_m = {2, 2};
+  EXPECT_EQ(FindSegmentOf(grid, track, segments, 0.0), 0U) << "equal";
+}
+
 TEST(MayBeTwoPeople, ALongLivedTrackIsNotSplitWhileItsSurfaceDoesNotGrow) {
   ClassificationOptions options;
   Detection whole;

@@ -115,6 +115,22 @@ TEST_F(NewPerson, PieceIsAPersonUnlessThePoseNetworkRejectsIt) {
   EXPECT_EQ(rule_, Rule::kPieceLowScore);
 }
 
+// Of what stands beside somebody tracked, and was taken for theirs, both models must be confident.
+TEST_F(NewPerson, PieceCutOffATrackedPersonIsNewUnlessBothModelsAreConfident) {
+  const auto accepted_in = [&](const Observation& look) {
+    std::vector<TentativeTrack> tentative;
+    for (int f = 0; f < 4; ++f) {
+      Detection piece = Detect(look);
+      piece.is_piece = piece.is_cut_off = true;
+      if (DecidePerson(false, f / 30.0, options_, tentative, piece)) return f;
+    }
+    return -1;
+  };
+  EXPECT_EQ(accepted_in({.score = 0.95, .verifier = Verifier::kForestAndNetwork}), 0);
+  EXPECT_EQ(accepted_in({.score = 0.95, .verifier = Verifier::kSurfaceFit}), 2);
+  EXPECT_EQ(accepted_in({.score = 0.9, .verifier = Verifier::kForest}), -1);
+}
+
 TEST_F(NewPerson, StaticLikeFurnitureIsNeverAccepted) {
   EXPECT_EQ(AcceptedIn(60, false, [](int) { return Observation{0.85}; }), -1);
   // A lower score of an object that turns, and grows by a quarter, is a person,
@@ -374,6 +390,22 @@ TEST_F(NewPerson, ContestedIsVerifiedByTheSurfaceAfterSeveralFrames) {
     EXPECT_EQ(NeedsSurfaceCheck(contested, options_), is_accepted);
   }
   EXPECT_TRUE(is_accepted);
+}
+
+// A contested observation counts with the forest's score, which real furniture may have, too.
+TEST_F(NewPerson, ContestedOnceMustBeConfidentOnAverage) {
+  const auto accepted_in = [&](bool contested, bool grows) {
+    return AcceptedIn(8, false, [&](int f) {
+      const bool now = contested && f < 2;
+      return Observation{.score = now ? 0.97 : 0.8,
+                         .area_m2 = 0.1F + (grows ? 0.01F * static_cast<float>(f) : 0.0F),
+                         .verifier = now ? Verifier::kSurfaceFit : Verifier::kForestAndNetwork};
+    });
+  };
+  EXPECT_EQ(accepted_in(false, false), options_.standing_observations - 1);
+  EXPECT_EQ(accepted_in(true, false), -1);
+  EXPECT_EQ(accepted_in(false, true), options_.tentative_observations - 1);
+  EXPECT_EQ(accepted_in(true, true), -1);
 }
 
 // A strip of wall under the upper border resembles somebody whose head is outside; near the sensor
