@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "depth/base/error.h"
@@ -11,6 +12,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tools/experiments/real/real_agreement_internal.h"
 #include "tools/experiments/real/real_evaluation_internal.h"
+#include "tools/experiments/real/real_held_internal.h"
 #include "tools/experiments/real/real_holes_internal.h"
 
 namespace ossa::tools {
@@ -208,6 +210,33 @@ TEST(RealHoles, RemoveTheSameGivenShareOfReadingsEachTime) {
   EXPECT_NEAR(share_missing(WithHoles(whole, Holes::kGrid, 1)), 5.0 / 9.0, 0.02);
   EXPECT_EQ(WithHoles(whole, Holes::kThird, 1).stills[1].frame.depth_mm,
             WithHoles(whole, Holes::kThird, 1).stills[1].frame.depth_mm);
+}
+
+TEST(RealHeld, MeasuresAgainWithTheNoiseOfStructuredLight) {
+  depth::DepthFrame frame;
+  frame.camera = depth::KinectV1Camera(320, 240);
+  frame.depth_mm.assign(static_cast<size_t>(320) * 240, 2000);
+  frame.depth_mm[7] = 0;
+  const auto again_mm = MeasuredAgain(frame, 1).depth_mm;
+  double sum2_mm2 = 0.0;
+  for (const uint16_t depth_mm : again_mm) sum2_mm2 += std::pow(depth_mm - 2000.0, 2.0);
+  sum2_mm2 -= std::pow(2000.0, 2.0);  // the one without a reading
+  EXPECT_EQ(again_mm[7], 0);
+  EXPECT_NEAR(std::sqrt(sum2_mm2 / static_cast<double>(again_mm.size())), 5.7, 0.1);  // 1.425 * 2^2
+  EXPECT_EQ(again_mm, MeasuredAgain(frame, 1).depth_mm);
+  EXPECT_NE(again_mm, MeasuredAgain(frame, 2).depth_mm);
+}
+
+TEST(RealHeld, CountsTheBodiesOfTheFirstAndOfTheLastFrame) {
+  const auto sets = ReadRealSets(test::SharedFolder(), 1);
+  if (sets.empty()) GTEST_SKIP() << "no real depth with truth in " << test::SharedFolder();
+  tracker::Tracker tracker;
+  HeldScore score;
+  AddHeld(sets[0].stills[0].frame, 1, tracker, score);
+  EXPECT_EQ(score.images, 1);
+  EXPECT_EQ(score.first.one, 1);
+  EXPECT_EQ(score.last.one, 1);
+  EXPECT_EQ(score.last.bodies, 1);
 }
 
 // Of three joints raw has two: final's error of the third counts in neither mean.

@@ -7,10 +7,12 @@
 
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
+#include "depth/base/random.h"
 #include "tools/experiments/context_models.h"
 #include "tools/experiments/experiments_internal.h"
 #include "tools/experiments/real/real_agreement_internal.h"
 #include "tools/experiments/real/real_evaluation_internal.h"
+#include "tools/experiments/real/real_held_internal.h"
 #include "tools/experiments/real/real_holes_internal.h"
 #include "tools/experiments/real/real_tables_internal.h"
 #include "tools/json/json_text.h"
@@ -114,6 +116,9 @@ class RealReport {
     AddRawAndFinalRow(set.name, ScoreRawAndFinal(set, results), raw_and_final_);
     AddHolesRow(scored, "none", holes_);
     for (const Holes holes : kAllHoles) AddWithHoles(set, holes);
+    std::vector<const depth::DepthFrame*> frames;
+    for (const RealStill& still : set.stills) frames.push_back(&still.frame);
+    AddHeldFrames(set.name, frames);
     const StateScore by_state = ScoreStates(set, results);
     AddStatesRow(set, by_state, states_);
     report_["states"].push_back(StatesToJson(set, by_state));
@@ -127,11 +132,15 @@ class RealReport {
     const VideoScore score = EvaluateVideo(video, tracker_);
     AddRecordingRow(video, score, recordings_);
     report_["recordings"].push_back(VideoToJson(video, score));
+    if (!video.stills) return;
+    std::vector<const depth::DepthFrame*> frames;
+    for (const depth::DepthFrame& frame : video.frames) frames.push_back(&frame);
+    AddHeldFrames(video.name, frames);
   }
 
   std::vector<Table> Write() const {
     WriteJson(context_, report_);
-    return {stills_, raw_and_final_, holes_, joints_, agreement_, states_, recordings_};
+    return {stills_, raw_and_final_, holes_, joints_, agreement_, states_, recordings_, held_};
   }
 
  private:
@@ -157,17 +166,25 @@ class RealReport {
     }
   }
 
+  void AddHeldFrames(const std::string& name, const std::vector<const depth::DepthFrame*>& frames) {
+    HeldScore score;
+    for (const depth::DepthFrame* frame : frames) {
+      context_.ThrowIfInterrupted();
+      AddHeld(*frame, MixSeed(context_.seed, static_cast<uint64_t>(score.images)), tracker_, score);
+    }
+    AddHeldRow(name, score, held_);
+    report_["held"].push_back(HeldToJson(name, score));
+  }
+
   ExperimentContext& context_;
   tracker::Tracker& tracker_;
   Table stills_ = StillsTable(), joints_ = JointsTable(), states_ = StatesTable();
   Table agreement_ = AgreementTable();
   Table raw_and_final_ = RawAndFinalTable(), holes_ = HolesTable();
-  Table recordings_ = RecordingsTable();
-  json report_ = {{"sets", json::array()},
-                  {"with_holes", json::array()},
-                  {"agreement", json::array()},
-                  {"states", json::array()},
-                  {"recordings", json::array()}};
+  Table recordings_ = RecordingsTable(), held_ = HeldTable();
+  json report_ = {{"sets", json::array()},       {"with_holes", json::array()},
+                  {"agreement", json::array()},  {"states", json::array()},
+                  {"recordings", json::array()}, {"held", json::array()}};
 };
 
 }  // namespace

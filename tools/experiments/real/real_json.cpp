@@ -42,6 +42,19 @@ json VideoToJson(const RealVideo& video, const VideoScore& s) {
           {"nobody_alone", static_cast<double>(s.nobody_alone) / static_cast<double>(s.frames)}};
 }
 
+json HeldToJson(const std::string& set, const HeldScore& score) {
+  const auto counts_to_json = [&](const BodyCounts& counts) -> json {
+    const auto images = static_cast<double>(score.images);
+    return {{"one_body", static_cast<double>(counts.one) / images},
+            {"nobody", static_cast<double>(counts.nobody) / images},
+            {"bodies", counts.bodies}};
+  };
+  return {{"name", set},
+          {"images", score.images},
+          {"first_frame", counts_to_json(score.first)},
+          {"last_frame", counts_to_json(score.last)}};
+}
+
 json AgreementToJson(const std::string& set, const std::string& joint, const PeerAgreement& a) {
   return {{"name", set},
           {"joint", joint},

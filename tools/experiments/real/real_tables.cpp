@@ -146,6 +146,24 @@ void AddStatesRow(const RealSet& set, const StateScore& s, Table& table) {
                         PercentOf(s.others_within_10cm, s.others)});
 }
 
+Table HeldTable() {
+  return {.title = "Stills shown for a second, with a sensor's noise",
+          .columns = {"set", "images", "first frame: one body, nobody, %", "bodies",
+                      "last frame: one body, nobody, %", "bodies"},
+          .rows = {},
+          .note = "Nothing moves: the last frame shows the same people as the first."};
+}
+
+void AddHeldRow(const std::string& set, const HeldScore& score, Table& table) {
+  std::vector<std::string> row = {set, std::to_string(score.images)};
+  for (const BodyCounts& counts : {score.first, score.last}) {
+    row.push_back(PercentOf(counts.one, score.images) + " / " +
+                  PercentOf(counts.nobody, score.images));
+    row.push_back(std::to_string(counts.bodies));
+  }
+  table.rows.push_back(std::move(row));
+}
+
 Table RecordingsTable() {
   return {
       .title = "Real recordings without truth",

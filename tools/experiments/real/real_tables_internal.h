@@ -7,6 +7,7 @@
 #include "tools/experiments/experiment.h"
 #include "tools/experiments/real/real_agreement_internal.h"
 #include "tools/experiments/real/real_evaluation_internal.h"
+#include "tools/experiments/real/real_held_internal.h"
 
 namespace ossa::tools {
 
@@ -35,6 +36,8 @@ void AddAgreementRow(const std::string& set, const std::string& joint,
                      const PeerAgreement& agreement, Table& table);
 Table StatesTable();
 void AddStatesRow(const RealSet& set, const StateScore& score, Table& table);
+Table HeldTable();
+void AddHeldRow(const std::string& set, const HeldScore& score, Table& table);
 Table RecordingsTable();
 void AddRecordingRow(const RealVideo& video, const VideoScore& score, Table& table);
 
@@ -43,6 +46,7 @@ nlohmann::json SetToJson(const RealSet& set, const ScoredSet& scored);
 nlohmann::json AgreementToJson(const std::string& set, const std::string& joint,
                                const PeerAgreement& agreement);
 nlohmann::json StatesToJson(const RealSet& set, const StateScore& score);
+nlohmann::json HeldToJson(const std::string& set, const HeldScore& score);
 nlohmann::json VideoToJson(const RealVideo& video, const VideoScore& score);
 
 }  // namespace ossa::tools
