@@ -8,8 +8,10 @@
 namespace ossa::tools {
 namespace {
 
-constexpr int kFrames = 30;            // by hand: longer than a new person is judged
-constexpr double kFrame_s = 1.0 / 30;  // by hand: the rate of a Kinect v1
+// Constants: chosen by hand; they define the figures and are never tuned.
+
+constexpr int kFrames = 30;            // a second: longer than a new person is judged
+constexpr double kFrame_s = 1.0 / 30;  // the rate of a Kinect v1
 
 // Standard deviation of a reading at 1 m, in metres, which grows with the square of the distance:
 // Khoshelham & Elberink 2012, half a pixel of the disparity of a Kinect v1.
@@ -24,7 +26,8 @@ void BodyCounts::Add(size_t in_image) {
 }
 
 depth::DepthFrame MeasuredAgain(depth::DepthFrame frame, uint64_t seed) {
-  constexpr double kMean = 2.0 * 0xFFFF, kVariance = (0x1p32 - 1.0) / 3.0;  // of SumOfParts
+  // Of SumOfParts, no unit; the largest reading of 16 bits.
+  constexpr double kMean = 2.0 * 0xFFFF, kVariance = (0x1p32 - 1.0) / 3.0;
   constexpr double kFarthest_mm = 0xFFFF;
   const double scale = 1e-3 * kNoise_per_m / std::sqrt(kVariance);
   Random random(seed);
@@ -43,7 +46,8 @@ void AddHeld(const depth::DepthFrame& frame, uint64_t seed, tracker::Tracker& tr
   ++score.images;
   size_t bodies = 0;
   for (int f = 0; f < kFrames; ++f) {
-    depth::DepthFrame shown = f == 0 ? frame : MeasuredAgain(frame, MixSeed(seed, f));
+    depth::DepthFrame shown =
+        f == 0 ? frame : MeasuredAgain(frame, MixSeed(seed, static_cast<uint64_t>(f)));
     shown.time_s = f * kFrame_s;
     bodies = tracker.Track(shown).bodies.size();
     if (f == 0) score.first.Add(bodies);
