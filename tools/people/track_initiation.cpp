@@ -180,10 +180,11 @@ Decision DescribeTentative(const Detection& detection, const TentativeTrack& tra
 }
 
 // Whether a segment around a head may be accepted in one frame. One that is cut off somebody
-// tracked may be a thing beside them: both models must be confident.
+// tracked may be a thing beside them: where the pose network was run, both must be confident.
 bool MayPassAsPiece(const Detection& piece, const InitiationOptions& options) {
   if (!piece.is_piece) return false;
-  return !piece.is_cut_off || (IsVerifiedByPose(piece) && piece.score >= options.confident_score);
+  if (!piece.is_cut_off || piece.verifier == Verifier::kForest) return true;
+  return IsVerifiedByPose(piece) && piece.score >= options.confident_score;
 }
 
 // Segments around heads must each score like a person.

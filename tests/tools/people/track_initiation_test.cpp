@@ -115,7 +115,8 @@ TEST_F(NewPerson, PieceIsAPersonUnlessThePoseNetworkRejectsIt) {
   EXPECT_EQ(rule_, Rule::kPieceLowScore);
 }
 
-// Of what stands beside somebody tracked, and was taken for theirs, both models must be confident.
+// Of what stands beside somebody tracked, and was taken for theirs, both models must be confident,
+// if there are both.
 TEST_F(NewPerson, PieceCutOffATrackedPersonIsNewUnlessBothModelsAreConfident) {
   const auto accepted_in = [&](const Observation& look) {
     std::vector<TentativeTrack> tentative;
@@ -128,7 +129,8 @@ TEST_F(NewPerson, PieceCutOffATrackedPersonIsNewUnlessBothModelsAreConfident) {
   };
   EXPECT_EQ(accepted_in({.score = 0.95, .verifier = Verifier::kForestAndNetwork}), 0);
   EXPECT_EQ(accepted_in({.score = 0.95, .verifier = Verifier::kSurfaceFit}), 2);
-  EXPECT_EQ(accepted_in({.score = 0.9, .verifier = Verifier::kForest}), -1);
+  EXPECT_EQ(accepted_in({.score = 0.9, .verifier = Verifier::kForestAndNetwork}), 2);
+  EXPECT_EQ(accepted_in({.score = 0.95, .verifier = Verifier::kForest}), 0);
 }
 
 TEST_F(NewPerson, StaticLikeFurnitureIsNeverAccepted) {
