@@ -61,6 +61,13 @@ inline int SumOfParts(uint64_t bits) {
   return sum;
 }
 
+/// SumOfParts with mean 0 and variance 1.
+inline double NearlyNormal(uint64_t bits) {
+  constexpr double kMean = 2.0 * 0xFFFF;       // no unit; see SumOfParts
+  constexpr double kDeviation = 37837.227237;  // no unit; the square root of its variance
+  return (SumOfParts(bits) - kMean) / kDeviation;
+}
+
 /// Combines several numbers into one seed.
 inline uint64_t MixSeed(uint64_t a, uint64_t b, uint64_t c = 0, uint64_t d = 0) {
   uint64_t mixed = Random(a).Bits();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "depth/base/atomic_file.h"
@@ -116,9 +117,7 @@ class RealReport {
     AddRawAndFinalRow(set.name, ScoreRawAndFinal(set, results), raw_and_final_);
     AddHolesRow(scored, "none", holes_);
     for (const Holes holes : kAllHoles) AddWithHoles(set, holes);
-    std::vector<const depth::DepthFrame*> frames;
-    for (const RealStill& still : set.stills) frames.push_back(&still.frame);
-    AddHeldFrames(set.name, frames);
+    AddHeldFrames(set.name, set.stills, &RealStill::frame);
     const StateScore by_state = ScoreStates(set, results);
     AddStatesRow(set, by_state, states_);
     report_["states"].push_back(StatesToJson(set, by_state));
@@ -132,10 +131,7 @@ class RealReport {
     const VideoScore score = EvaluateVideo(video, tracker_);
     AddRecordingRow(video, score, recordings_);
     report_["recordings"].push_back(VideoToJson(video, score));
-    if (!video.stills) return;
-    std::vector<const depth::DepthFrame*> frames;
-    for (const depth::DepthFrame& frame : video.frames) frames.push_back(&frame);
-    AddHeldFrames(video.name, frames);
+    if (video.stills) AddHeldFrames(video.name, video.frames);
   }
 
   std::vector<Table> Write() const {
@@ -166,11 +162,15 @@ class RealReport {
     }
   }
 
-  void AddHeldFrames(const std::string& name, const std::vector<const depth::DepthFrame*>& frames) {
+  // Each still of a set; `frame_of` gives its depth frame.
+  template <typename Still, typename FrameOf = std::identity>
+  void AddHeldFrames(const std::string& name, const std::vector<Still>& stills,
+                     FrameOf frame_of = {}) {
     HeldScore score;
-    for (const depth::DepthFrame* frame : frames) {
+    for (const Still& still : stills) {
       context_.ThrowIfInterrupted();
-      AddHeld(*frame, MixSeed(context_.seed, static_cast<uint64_t>(score.images)), tracker_, score);
+      AddHeld(std::invoke(frame_of, still),
+              MixSeed(context_.seed, static_cast<uint64_t>(score.images)), tracker_, score);
     }
     AddHeldRow(name, score, held_);
     report_["held"].push_back(HeldToJson(name, score));

@@ -26,15 +26,13 @@ void BodyCounts::Add(size_t in_image) {
 }
 
 depth::DepthFrame MeasuredAgain(depth::DepthFrame frame, uint64_t seed) {
-  // Of SumOfParts, no unit; the largest reading of 16 bits.
-  constexpr double kMean = 2.0 * 0xFFFF, kVariance = (0x1p32 - 1.0) / 3.0;
-  constexpr double kFarthest_mm = 0xFFFF;
-  const double scale = 1e-3 * kNoise_per_m / std::sqrt(kVariance);
+  constexpr double kFarthest_mm = 0xFFFF;  // the largest reading of 16 bits
+  constexpr double kNoise_per_mm = 1e-3 * kNoise_per_m;
   Random random(seed);
   for (uint16_t& depth_mm : frame.depth_mm) {
     if (depth_mm == 0) continue;
     const double z_mm = depth_mm;
-    const double noise_mm = scale * z_mm * z_mm * (SumOfParts(random.Bits()) - kMean);
+    const double noise_mm = kNoise_per_mm * z_mm * z_mm * NearlyNormal(random.Bits());
     depth_mm = static_cast<uint16_t>(std::lround(std::clamp(z_mm + noise_mm, 1.0, kFarthest_mm)));
   }
   return frame;
