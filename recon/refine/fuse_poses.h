@@ -8,7 +8,10 @@ namespace ossa::recon {
 /// development sets of `ossa experiment real`.
 struct FusionOptions {
   // Without a pose network, at a forest confidence of 1 and of 0; metres, > 0.
-  double sure_m = 0.03, unsure_m = 0.12;
+  double sure_m = 0.03, unsure_m = 0.2;
+  /// ... and, at a confidence of 0, at least this ratio of the network's error: what hides a joint
+  /// from the network hides it from the cascade, too.
+  double unseen_ratio = 1.5;
   /// Ratio of the network's error on real depth to the error it predicts, which is learned from
   /// rendered people.
   double off_on_real_depth = 1.5;
