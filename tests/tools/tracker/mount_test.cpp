@@ -69,11 +69,29 @@ const std::vector<LabelledFrame>& CeilingClip() {
   return clip;
 }
 
+// Hides everything below the middle of the trunk behind the front of a counter.
+void PutBehindACounter(LabelledFrame& shot) {
+  constexpr double kCounter_m = 0.45;  // by hand, from the hips to its front
+  const recon::Posture& joints_m = shot.bodies[0].joints_m;
+  const depth::Camera& camera = shot.depth.camera;
+  const Eigen::Vector3d& spine_m = joints_m[recon::Joint::kSpine];
+  const auto front_mm =
+      static_cast<uint16_t>(1000.0 * (joints_m[recon::Joint::kHipCenter].z() - kCounter_m));
+  const int top = static_cast<int>(camera.cy - camera.fy * spine_m.y() / spine_m.z());
+  for (int v = std::clamp(top, 0, camera.height); v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      uint16_t& depth_mm = shot.depth.depth_mm[static_cast<size_t>(v * camera.width + u)];
+      if (depth_mm == 0 || depth_mm > front_mm) depth_mm = front_mm;
+    }
+  }
+}
+
 // The number of single images that are classified as from the ceiling.
-int CountCeilings(const Place& place, int images) {
+int CountCeilings(const Place& place, int images, bool behind_a_counter = false) {
   Tracker tracker;
   int ceilings = 0;
-  for (const LabelledFrame& shot : RenderFrames(place, 300, images)) {
+  for (LabelledFrame& shot : RenderFrames(place, 300, images)) {
+    if (behind_a_counter) PutBehindACounter(shot);
     tracker.Reset();
     tracker.Track(shot.depth);
     ceilings += tracker.mount() == Mount::kCeiling ? 1 : 0;
@@ -314,6 +332,16 @@ TEST(Mount, LevelCameraWithANearPersonStaysLevel) {
   EXPECT_LE(CountCeilings({tools::View::kNear, tools::Background::kLivedIn, 5, false}, 60), 1);
 }
 
+// The counter hides the floor, and the person is not cut off by the lower image border: the wall
+// behind them is like a floor seen from above. Where the level models are certain of a person, the
+// ceiling forest must be so, too: without that rule 2 of these 60 are classified as from the
+// ceiling.
+TEST(Mount, LevelCameraWithAPersonBehindACounterStaysLevel) {
+  OSSA_NEEDS_CEILING();
+  EXPECT_LE(CountCeilings({tools::View::kFront, tools::Background::kLivedIn, 5, false}, 60, true),
+            1);
+}
+
 TEST(Mount, LevelCameraInFrontOfAWallStaysLevel) {
   OSSA_NEEDS_MODEL();
   EXPECT_FALSE(MayBeFromAbove(BeforeAWall(), false, people::PeopleOptionsFromAbove()));
@@ -328,10 +356,11 @@ TEST(Mount, LevelCameraInFrontOfAWallStaysLevel) {
 }
 
 // In a furnished room a wall is often detected as the floor of a level camera, and no person in
-// front of it: such frames are checked, too. The others show people at the image's border.
+// front of it: such frames are checked, too. The others show people at the image's border, or
+// people of whom the level models are more certain: a clip decides on them in later checks.
 TEST(Mount, CeilingIsDetectedIfAWallLooksLikeAFloor) {
   OSSA_NEEDS_CEILING();
-  EXPECT_GE(CountCeilings({tools::View::kCeiling, tools::Background::kLivedIn, 2, false}, 24), 13);
+  EXPECT_GE(CountCeilings({tools::View::kCeiling, tools::Background::kLivedIn, 2, false}, 24), 10);
 }
 
 BodyFrame LevelLook(double time_s) {
