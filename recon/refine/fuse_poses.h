@@ -11,7 +11,7 @@ struct FusionOptions {
   double sure_m = 0.03, unsure_m = 0.2;
   /// ... and, at a confidence of 0, at least this ratio of the network's error: what hides a joint
   /// from the network hides it from the cascade, too.
-  double unseen_ratio = 1.5;
+  double unseen_ratio = 1.25;
   /// Ratio of the network's error on real depth to the error it predicts, which is learned from
   /// rendered people.
   double off_on_real_depth = 1.5;
