@@ -63,8 +63,8 @@ inline int SumOfParts(uint64_t bits) {
 
 /// SumOfParts with mean 0 and variance 1.
 inline double NearlyNormal(uint64_t bits) {
-  constexpr double kMean = 2.0 * 0xFFFF;       // no unit; see SumOfParts
-  constexpr double kDeviation = 37837.227237;  // no unit; the square root of its variance
+  constexpr double kMean = 2.0 * 0xFFFF;       // no unit; derived: of SumOfParts
+  constexpr double kDeviation = 37837.227237;  // no unit; derived: the root of its variance
   return (SumOfParts(bits) - kMean) / kDeviation;
 }
 

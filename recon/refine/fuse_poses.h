@@ -5,7 +5,8 @@
 namespace ossa::recon {
 
 /// Expected errors of joints, as mean distance from the true position. Constants: chosen on the
-/// development sets of `ossa experiment real`.
+/// development sets of `ossa experiment real`, and those of the cascade also on recordings with the
+/// Kinect SDK's joints (UTD-MHAD, Chen et al. 2015).
 struct FusionOptions {
   // Without a pose network, at a forest confidence of 1 and of 0; metres, > 0.
   double sure_m = 0.03, unsure_m = 0.2;

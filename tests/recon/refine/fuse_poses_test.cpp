@@ -26,11 +26,13 @@ TEST(FusePoses, WeighsByInverseVariance) {
   EXPECT_NEAR(fused_m[Joint::kHandLeft].x(), 0.0, 1e-9);
 }
 
-// A joint outside the image is as uncertain for the cascade as for the network, in whatever
-// direction it lies.
-TEST(FusePoses, ExpectsNoSmallerErrorOfUnseenJointsThanTheNetworkDoes) {
-  const FusionOptions options{
-      .sure_m = 0.02, .unsure_m = 0.1, .unseen_ratio = 2.0, .off_on_real_depth = 1.0};
+// What hides a foot from the network hides it from the cascade, too.
+TEST(FusePoses, ExpectsLargeErrorsOfUnseenJointsWhereTheNetworkDoes) {
+  const FusionOptions options{.sure_m = 0.02,
+                              .unsure_m = 0.1,
+                              .unseen_ratio = 2.0,
+                              .off_on_real_depth = 1.0,
+                              .contradiction = 10.0};
   const Posture joints_m;
   JointArray<double> confidence{};
   confidence[Index(Joint::kHead)] = 1.0;
