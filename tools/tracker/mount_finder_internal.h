@@ -16,7 +16,7 @@ struct MountOptions {
   // Least score, [0, 1], and the same where the level models see a floor or a certain person. Real
   // stills from the ceiling have 0.80 and more, those with a certain level person 0.99. Of 880
   // rendered and real level images without a floor three have 0.94 and more, the others 0.63 and
-  // less; with one two have 0.80 and 0.95. Behind a counter people before a wall have up to 0.96.
+  // less; with one two have 0.80 and 0.95. Behind a counter people before a wall have up to 0.97.
   double sure = 0.75, sure_despite_level = 0.97;
   double level_person = 0.98;  // person score of the level models, [0, 1]
   float min_head_m =
