@@ -105,6 +105,17 @@ void ForgetIfSensorMoved(const PointGrid& grid, BackgroundState& state,
   if (SensorMoved(grid, state, options)) state = {};
 }
 
+void ForgetBackground(const PointGrid& grid, const std::vector<int>& cells, BackgroundState& state,
+                      const BackgroundOptions& options) {
+  if (state.width != grid.width || state.height != grid.height) return;
+  for (const int cell : cells) {
+    const auto n = static_cast<size_t>(cell);
+    if (state.steady[n] < options.steady_frames && SameSurface(grid.z(cell), state.surface_m[n])) {
+      state.steady[n] = 0;
+    }
+  }
+}
+
 void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,
                      BackgroundState& state, const BackgroundOptions& options) {
   const auto cells = static_cast<size_t>(grid.cells());

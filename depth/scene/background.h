@@ -68,6 +68,11 @@ BackgroundMasks CompareWithBackground(const PointGrid& grid, const BackgroundSta
 float MeasureForegroundArea_m2(const PointGrid& grid, const std::vector<int>& cells,
                                const std::vector<uint8_t>& foreground);
 
+/// Removes a person's surface from the model, where it was learned in the few frames before they
+/// were recognised: what was seen for `steady_frames` stays. `cells`: the person's, of the grid.
+void ForgetBackground(const PointGrid& grid, const std::vector<int>& cells, BackgroundState& state,
+                      const BackgroundOptions& options = {});
+
 /// Updates the model with a frame. `claimed` (one entry per cell) marks the cells of people, which
 /// are never learned.
 void LearnBackground(const PointGrid& grid, const std::vector<uint8_t>& claimed,

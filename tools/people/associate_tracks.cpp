@@ -221,7 +221,7 @@ std::vector<int> RewindTracks(double time_s, std::vector<Track>& tracks) {
 std::vector<Region> FindRivals(const std::vector<Candidate>& candidates) {
   std::vector<Region> rivals;
   for (const Candidate& candidate : candidates) {
-    if (candidate.track < 0 && IsForeground(candidate) && candidate.may_return)
+    if (candidate.track < 0 && IsForeground(candidate) && !candidate.may_return_as.empty())
       rivals.push_back(candidate.region);
   }
   return rivals;

@@ -7,10 +7,20 @@
 #include "depth/scene/silhouette.h"
 #include "tools/people/planar_occluder.h"
 #include "tools/people/split_regions.h"
+#include "tools/people/track_prediction.h"
 
 namespace ossa::people {
 
 using Eigen::Vector3f;
+
+bool MayBeReturning(const PointGrid& grid, const Candidate& candidate, const Track& other,
+                    const std::vector<Track>& tracks, double time_s,
+                    const CandidateOptions& options) {
+  return std::any_of(candidate.may_return_as.begin(), candidate.may_return_as.end(), [&](int lost) {
+    return IsRatherOf(grid, candidate.region, tracks[static_cast<size_t>(lost)], other, time_s,
+                      options);
+  });
+}
 
 std::vector<uint8_t> MaskPixels(const DepthFrame& frame, std::span<const int32_t> pixels) {
   std::vector<uint8_t> mask(frame.pixel_count(), 0);
@@ -103,7 +113,9 @@ Candidate MergeCandidates(const Scene& scene, const DepthFrame& frame, const Can
   whole.foreground_share = of_a * a.foreground_share + (1 - of_a) * b.foreground_share;
   whole.foreground_m2 = a.foreground_m2 + b.foreground_m2;
   whole.background_share = of_a * a.background_share + (1 - of_a) * b.background_share;
-  whole.may_return = a.may_return || b.may_return;
+  whole.may_return_as = a.may_return_as;
+  whole.may_return_as.insert(whole.may_return_as.end(), b.may_return_as.begin(),
+                             b.may_return_as.end());
   whole.isolated = a.isolated && b.isolated;
   whole.occluded_share = of_a * a.occluded_share + (1 - of_a) * b.occluded_share;
   whole.region_index = a.region_index;

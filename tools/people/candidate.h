@@ -7,6 +7,7 @@
 #include "tools/people/decision.h"
 #include "tools/people/geometry.h"
 #include "tools/people/options.h"
+#include "tools/people/track.h"
 
 namespace ossa::people {
 
@@ -17,7 +18,7 @@ struct Candidate {
   int track = -1;                  // index of the track with which it overlaps, or -1
   int owner = -1;                  // index of the track that most of its cells belonged to, or -1
   std::vector<int> absorbed;       // other tracks that proved to be parts of the same person
-  bool may_return = false;         // a lost track is expected near here
+  std::vector<int> may_return_as;  // lost tracks, as indices, that are expected near here
   bool recently_rejected = false;  // it had a low score in a recent frame
   bool has_head = false;           // a head was detected in it by shape
   bool at_top = false;             // it reaches the image's upper border
@@ -37,6 +38,12 @@ struct Candidate {
 inline bool IsForeground(const Candidate& candidate) {
   return candidate.foreground_share > kMajority;
 }
+
+/// Whether a candidate may be a lost track that comes into view again, rather than a part of
+/// `other` (IsRatherOf).
+bool MayBeReturning(const PointGrid& grid, const Candidate& candidate, const Track& other,
+                    const std::vector<Track>& tracks, double time_s,
+                    const CandidateOptions& options);
 
 /// A mask of the frame, row-major: 1 for these pixels (v * width + u).
 std::vector<uint8_t> MaskPixels(const DepthFrame& frame, std::span<const int32_t> pixels);

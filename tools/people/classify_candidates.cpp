@@ -182,11 +182,10 @@ bool MayBePartsOfOnePerson(const Scene& scene, const PeopleOptions& options, con
 bool MayReturnBeside(const PointGrid& grid, const Detection& part, const Detection& track,
                      const std::vector<Track>& tracks, double time_s,
                      const PeopleOptions& options) {
-  if (part.candidate.track >= 0 || !part.candidate.may_return) return false;
-  if (track.candidate.track < 0 || track.age <= options.classification.mature_age) return false;
-  return MeasureOffset_m(grid, tracks[static_cast<size_t>(track.candidate.track)],
-                         part.candidate.region, time_s,
-                         options.candidates.prediction) > options.candidates.same_person_m;
+  if (part.candidate.track >= 0 || track.candidate.track < 0) return false;
+  if (track.age <= options.classification.mature_age) return false;
+  return MayBeReturning(grid, part.candidate, tracks[static_cast<size_t>(track.candidate.track)],
+                        tracks, time_s, options.candidates);
 }
 
 bool IsOfOtherTrack(const Detection& part, const Detection& track, const std::vector<Track>& tracks,

@@ -41,7 +41,7 @@ void ApplyPoseNetwork(const ClassificationInput& input, Detection& detection) {
   // Who comes into a known scene, or back, is new but hardly furniture: like somebody tracked, they
   // can only gain by the network, which sees less of who is half hidden.
   const bool comes =
-      is_new && (IsForeground(detection.candidate) || detection.candidate.may_return);
+      is_new && (IsForeground(detection.candidate) || !detection.candidate.may_return_as.empty());
   const InitiationOptions& initiation = options.initiation;
   const double enough = comes ? initiation.new_person_score : initiation.confident_score;
   const bool gains_only = comes || !is_new;

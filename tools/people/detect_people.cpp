@@ -115,6 +115,11 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
   MeasurePeople(input, people);
   const std::vector<int> ids =
       AssociateTracks(scene, rivals, people, frame.time_s, state.tracks, options.association);
+  for (const Detection& person : people) {
+    if (person.decision.rule != Rule::kEnoughObservations) continue;
+    depth::ForgetBackground(scene.grid, person.candidate.region.cells, state.scene.background,
+                            options.scene.background);
+  }
   depth::LearnBackground(scene.grid, MarkCells(scene.grid, people), state.scene.background,
                          options.scene.background);
   AddPeople(frame.camera, ids, std::move(people), result);

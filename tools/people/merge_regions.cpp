@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "tools/people/occlusion_merge.h"
 #include "tools/people/planar_occluder.h"
@@ -71,31 +72,76 @@ size_t FindTrackBehind(const PointGrid& grid, const Region& piece, const std::ve
   return tracks.size();
 }
 
-// Tracks that own no cell, as indices.
-std::vector<size_t> FindUnseenTracks(const std::vector<int>& owner,
-                                     const std::vector<Track>& tracks) {
-  std::vector<uint8_t> seen(tracks.size(), 0);
-  for (const int track : owner) {
-    if (track >= 0) seen[static_cast<size_t>(track)] = 1;
+// The surface that each track owns.
+std::vector<float> MeasureOwned_m2(const PointGrid& grid, const std::vector<int>& owner,
+                                   size_t tracks) {
+  std::vector<float> owned_m2(tracks, 0.0F);
+  for (size_t i = 0; i < owner.size(); ++i) {
+    if (owner[i] < 0) continue;
+    owned_m2[static_cast<size_t>(owner[i])] += grid.Area(static_cast<int>(i));
   }
-  std::vector<size_t> lost;
-  for (size_t t = 0; t < tracks.size(); ++t) {
-    if (!seen[t]) lost.push_back(t);
-  }
-  return lost;
+  return owned_m2;
 }
 
-// Whether a region is not where `other` is, but where an unseen track may come into view again.
-bool MayBeLostTrack(const PointGrid& grid, const Region& piece, const Track& other,
-                    const std::vector<size_t>& unseen, const std::vector<Track>& tracks,
-                    double time_s, const CandidateOptions& options) {
-  return MeasureOffset_m(grid, other, piece, time_s, options.prediction) > options.same_person_m &&
-         std::any_of(unseen.begin(), unseen.end(), [&](size_t t) {
-           return IsExpectedAt(tracks[t], piece, time_s, options.prediction);
-         });
+// Tracks that are lost or partly hidden, as indices.
+std::vector<size_t> FindHiddenTracks(const PointGrid& grid, const std::vector<int>& owner,
+                                     const std::vector<Track>& tracks,
+                                     const MergeOptions& options) {
+  const std::vector<float> owned_m2 = MeasureOwned_m2(grid, owner, tracks.size());
+  double last_frame_s = -std::numeric_limits<double>::infinity();
+  for (const Track& track : tracks) last_frame_s = std::max(last_frame_s, track.last_seen_s);
+  std::vector<size_t> hidden;
+  for (size_t t = 0; t < tracks.size(); ++t) {
+    const bool is_lost = tracks[t].last_seen_s < last_frame_s;
+    if (is_lost || owned_m2[t] <= options.hidden_share * tracks[t].full_m2) {
+      hidden.push_back(t);
+    }
+  }
+  return hidden;
+}
+
+// Whether a region is not of `other`, but may be a hidden track that comes into view again.
+bool MayBeHiddenTrack(const PointGrid& grid, const Region& piece, const Track& other,
+                      const std::vector<size_t>& hidden, const std::vector<Track>& tracks,
+                      double time_s, const CandidateOptions& options) {
+  return std::any_of(hidden.begin(), hidden.end(), [&](size_t t) {
+    return &tracks[t] != &other && IsExpectedAt(tracks[t], piece, time_s, options.prediction) &&
+           IsRatherOf(grid, piece, tracks[t], other, time_s, options);
+  });
+}
+
+// The largest region of each track, as an index; -1 for none.
+std::vector<int> FindLargestOwned(const std::vector<Region>& regions, const std::vector<int>& owner,
+                                  size_t tracks) {
+  std::vector<int> largest(tracks, -1);
+  for (size_t r = 0; r < regions.size(); ++r) {
+    const int t = FindMainOwner(regions[r], owner, tracks);
+    if (t < 0) continue;
+    int& best = largest[static_cast<size_t>(t)];
+    if (best < 0 || regions[static_cast<size_t>(best)].area_m2 < regions[r].area_m2) {
+      best = static_cast<int>(r);
+    }
+  }
+  return largest;
 }
 
 }  // namespace
+
+void ReleaseReturning(const PointGrid& grid, const std::vector<Region>& regions,
+                      const std::vector<Track>& tracks, double time_s,
+                      const CandidateOptions& options, std::vector<int>& owner) {
+  const std::vector<size_t> hidden = FindHiddenTracks(grid, owner, tracks, options.merge);
+  if (hidden.empty()) return;
+  const std::vector<int> largest = FindLargestOwned(regions, owner, tracks.size());
+  for (size_t r = 0; r < regions.size(); ++r) {
+    const int t = FindMainOwner(regions[r], owner, tracks.size());
+    if (t < 0 || largest[static_cast<size_t>(t)] == static_cast<int>(r)) continue;
+    if (!MayBeHiddenTrack(grid, regions[r], tracks[static_cast<size_t>(t)], hidden, tracks, time_s,
+                          options))
+      continue;
+    for (const int cell : regions[r].cells) owner[static_cast<size_t>(cell)] = -1;
+  }
+}
 
 std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regions,
                                 const RoomShape& shape, const std::vector<int>& owner,
@@ -117,7 +163,7 @@ std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regio
     owner_of_big.push_back(FindMainOwner(region, owner, tracks.size()));
     plane.push_back(FitWholePlane(region, shape, options.occluder));
   }
-  const std::vector<size_t> unseen = FindUnseenTracks(owner, tracks);
+  const std::vector<size_t> hidden = FindHiddenTracks(grid, owner, tracks, options.merge);
   for (const Region& piece : small) {
     const int mine = FindMainOwner(piece, owner, tracks.size());
     int best = -1;
@@ -128,8 +174,8 @@ std::vector<Region> MergePieces(const PointGrid& grid, std::vector<Region> regio
       if (mine >= 0 && owner_of_big[i] >= 0 && mine != owner_of_big[i]) continue;
       if (plane[i] && StandsBehind(grid, piece, *plane[i], options.occluder)) continue;
       if (mine < 0 && owner_of_big[i] >= 0 &&
-          MayBeLostTrack(grid, piece, tracks[static_cast<size_t>(owner_of_big[i])], unseen, tracks,
-                         time_s, options))
+          MayBeHiddenTrack(grid, piece, tracks[static_cast<size_t>(owner_of_big[i])], hidden,
+                           tracks, time_s, options))
         continue;
       if (gaps_m[i] < best_gap) best_gap = gaps_m[i], best = static_cast<int>(i);
     }

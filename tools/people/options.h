@@ -78,7 +78,8 @@ struct MergeOptions {
   float search_m = 0.12F;  // in the image around a small region's cells, at its depth
   int min_search_cells = 3, max_search_cells = 16;
   // A region that appears beside a partly occluded track: the track's largest recent surface is
-  // visible to at most hidden_share, and together with the region to at most whole_share.
+  // visible to at most hidden_share, and together with the region to at most whole_share. Regions
+  // at such a track's depth are not merged into another track.
   float hidden_share = 0.75F, whole_share = 1.1F;
   float expected_aside_m = 0.35F, expected_deep_m = 0.25F;  // from the track's predicted place,
   float stride_m = 0.6F;     // ... or one step (anthropometry) across an occluder
@@ -149,6 +150,9 @@ struct CandidateOptions {
   // A new candidate may be part of a tracked person: horizontally, from the track's predicted
   // centroid and from the nearest side of its segment.
   float same_person_m = 0.45F, beside_person_m = 0.7F;
+  // Nearer, it may be a lost track if it is before or behind the tracked person by more than a
+  // trunk is thick (anthropometry), and off the lost track's depth by at most this share of that.
+  float other_depth_m = 0.25F, lost_depth_share = 0.75F;
   depth::SilhouetteOptions silhouette;
   HeadOptions heads;
   std::optional<OverheadOptions> overhead;  // replaces `heads` for a camera under the ceiling

@@ -100,6 +100,7 @@ std::vector<Region> FindRegions(const Scene& scene, const std::vector<Track>& tr
                                 *options.overhead);
   }
   auto regions = FindConnectedRegions(grid, masks.ignored, options.speck_m2);
+  ReleaseReturning(grid, regions, tracks, time_s, options, masks.owner);
   regions =
       MergePieces(grid, std::move(regions), scene.surfaces, masks.owner, tracks, time_s, options);
   regions =
@@ -210,7 +211,7 @@ void MarkReturningCandidates(const std::vector<Track>& tracks, double time_s, do
     for (Candidate& candidate : candidates) {
       if (candidate.track < 0 &&
           MayReturnAs(tracks[t], candidate.region, time_s, forget_s, options))
-        candidate.may_return = true;
+        candidate.may_return_as.push_back(static_cast<int>(t));
     }
   }
 }
@@ -222,7 +223,7 @@ float MeasureGapOnFloor_m(const PointGrid& grid, const Region& a, const Region& 
 }
 
 // A candidate that appears close to a tracked person may be part of them: it does not count as
-// foreground or as isolated.
+// foreground or as isolated, unless it may be a lost track that returns.
 void MarkPossibleParts(const PointGrid& grid, const std::vector<Track>& tracks, double time_s,
                        const CandidateOptions& options, std::vector<Candidate>& candidates) {
   for (Candidate& candidate : candidates) {
@@ -231,7 +232,8 @@ void MarkPossibleParts(const PointGrid& grid, const std::vector<Track>& tracks, 
       if (other.track < 0) continue;
       const Track& track = tracks[static_cast<size_t>(other.track)];
       if (MeasureOffset_m(grid, track, candidate.region, time_s, options.prediction) <
-          options.same_person_m)
+              options.same_person_m &&
+          !MayBeReturning(grid, candidate, track, tracks, time_s, options))
         candidate.foreground_share = 0;
       if (MeasureGapOnFloor_m(grid, candidate.region, other.region) < options.beside_person_m)
         candidate.isolated = false;

@@ -140,7 +140,7 @@ struct Requirement {
 Requirement RequireInFirstFrame(const Detection& detection, bool fresh_scene,
                                 const InitiationOptions& options) {
   const Candidate& candidate = detection.candidate;
-  if (candidate.may_return) return {Rule::kReturning, options.new_person_score};
+  if (!candidate.may_return_as.empty()) return {Rule::kReturning, options.new_person_score};
   if (detection.is_joined) return {Rule::kJoinedPieces, options.person_by_pose_score};
   if (fresh_scene && IsVerifiedByPose(detection))
     return {Rule::kFreshScene, RequireByPose(detection, options)};
@@ -202,7 +202,7 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
   const Candidate& candidate = detection.candidate;
   TentativeTrack* before = FindTentative(candidate, time_s, options, tentative);
   const bool may_pass_at_once =
-      before == nullptr || (candidate.may_return && !before->was_rejected);
+      before == nullptr || (!candidate.may_return_as.empty() && !before->was_rejected);
   const Requirement first = RequireInFirstFrame(detection, fresh_scene, options);
   if (may_pass_at_once && detection.score >= first.score)
     return DescribeDetection(detection, first.rule, first.score);
@@ -227,7 +227,8 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
 }
 
 // Candidates with a low score, which are not classified in every frame. To spread the cost, one is
-// due per frame, the one that waited longest, and those that waited for max_retry_s.
+// due per frame, the one that waited longest, and those that waited for max_retry_s. Where a lost
+// track is expected there is no wait: who comes out from behind somebody scores higher every frame.
 class RetrySchedule {
  public:
   RetrySchedule(const std::vector<Candidate>& candidates, double time_s,
@@ -241,7 +242,8 @@ class RetrySchedule {
         continue;
       before_.emplace(&candidate, before);
       const double waited_s = time_s - before->last_seen_s;
-      if (waited_s >= options.classification.retry_s && waited_s > longest_s) {
+      const double least_s = candidate.may_return_as.empty() ? options.classification.retry_s : 0.0;
+      if (waited_s >= least_s && waited_s > longest_s) {
         longest_s = waited_s;
         next_ = &candidate;
       }

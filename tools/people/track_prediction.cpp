@@ -57,10 +57,31 @@ int FindMainOwner(const Region& region, const std::vector<int>& owner, size_t tr
   return -1;
 }
 
+namespace {
+
+// On the floor, from a region's centroid to a track's predicted one.
+Eigen::Vector2f FindOffset_m(const PointGrid& grid, const Track& track, const Region& region,
+                             double time_s, const PredictionOptions& options) {
+  return grid.OnFloor(PredictMean_m(track, time_s, options.max_prediction_s) - region.mean_m);
+}
+
+}  // namespace
+
 float MeasureOffset_m(const PointGrid& grid, const Track& track, const Region& region,
                       double time_s, const PredictionOptions& options) {
-  return grid.OnFloor(PredictMean_m(track, time_s, options.max_prediction_s) - region.mean_m)
-      .norm();
+  return FindOffset_m(grid, track, region, time_s, options).norm();
+}
+
+bool IsRatherOf(const PointGrid& grid, const Region& region, const Track& lost, const Track& other,
+                double time_s, const CandidateOptions& options) {
+  const auto offset_m = [&](const Track& track) {
+    return FindOffset_m(grid, track, region, time_s, options.prediction);
+  };
+  const Eigen::Vector2f to_other_m = offset_m(other);
+  if (to_other_m.norm() > options.same_person_m) return true;
+  const float deep_m = std::abs(to_other_m.y());
+  return deep_m > options.other_depth_m &&
+         std::abs(offset_m(lost).y()) < options.lost_depth_share * deep_m;
 }
 
 bool IsExpectedAt(const Track& track, const Region& region, double time_s,

@@ -30,6 +30,11 @@ float MeasureOffset_m(const PointGrid& grid, const Track& track, const Region& r
 bool IsExpectedAt(const Track& track, const Region& region, double time_s,
                   const PredictionOptions& options = {});
 
+/// Whether a region where a lost track is expected may be that one rather than a part of `other`:
+/// far from `other`, or at another depth, which is the lost track's.
+bool IsRatherOf(const PointGrid& grid, const Region& region, const Track& lost, const Track& other,
+                double time_s, const CandidateOptions& options);
+
 /// Whether a lost track is expected near a region now. It is deleted after `forget_s`.
 bool MayReturnAs(const Track& track, const Region& region, double time_s, double forget_s,
                  const PredictionOptions& options = {});

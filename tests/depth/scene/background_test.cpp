@@ -196,6 +196,22 @@ TEST(Background, IsResetWhenTheSensorMoves) {
   EXPECT_EQ(std::count(state.steady.begin(), state.steady.end(), 0), 40 * 30);
 }
 
+// Somebody who was recognised after some frames is not part of the room; a sofa behind them is.
+TEST(Background, ForgetsAPersonWhoWasNotRecognisedAtFirst) {
+  const auto is_certain_after = [](int frames) {
+    const CapsuleRender render = Shot({PersonAt(0, 2.5)});
+    const PointGrid grid = GridOf(render);
+    const std::vector<int> cells = CellsOfPerson(render, grid);
+    const std::vector<uint8_t> nobody(static_cast<size_t>(grid.cells()), 0);
+    BackgroundState state;
+    for (int f = 0; f < frames; ++f) LearnBackground(grid, nobody, state);
+    ForgetBackground(grid, cells, state);
+    return MeasureShare(cells, CompareWithBackground(grid, state).certain);
+  };
+  EXPECT_EQ(is_certain_after(BackgroundOptions{}.steady_frames - 1), 0.0);
+  EXPECT_EQ(is_certain_after(BackgroundOptions{}.steady_frames), 1.0);
+}
+
 // A room whose walls meet in front of a sensor that is turned to the left by this angle, and so far
 // from them; with people.
 PointGrid TurnedBy(double yaw_rad, const std::vector<CapsulePose>& people = {},

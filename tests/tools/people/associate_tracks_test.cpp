@@ -41,6 +41,30 @@ TEST_F(Identity, IsKeptWhenTwoPeoplePassEachOther) {
   EXPECT_EQ(ids[1], first[0]);
 }
 
+// Somebody walks past close before somebody who stands still. Tracks go on in any candidate; what
+// is new must show a head and a trunk.
+TEST_F(Identity, IsKeptCloseBehindSomebodyWhoPasses) {
+  constexpr float kHeadAndTrunk_m2 = 0.2F;
+  int hidden = 0;
+  for (int i = 0; i <= 33; ++i) {
+    const double x_m = -0.9 + 0.0375 * i;  // 1.1 m/s
+    const CapsuleRender render = Shot({PersonAt(x_m, 2.4), PersonAt(0.0, 2.85)}, i);
+    const Proposed proposed = Propose(render, state_);
+    std::vector<Candidate> people = proposed.candidates;
+    std::erase_if(people, [&](const Candidate& candidate) {
+      return candidate.track < 0 && candidate.region.area_m2 < kHeadAndTrunk_m2;
+    });
+    const auto ids = Confirm(proposed, people, render.frame.time_s, state_, {}, 0.9);
+    for (const int id : ids) EXPECT_LE(id, 2) << i;
+    hidden += ids.size() < 2 ? 1 : 0;
+    for (const Candidate& candidate : people) {
+      const float deep_m = candidate.region.high_m.z() - candidate.region.low_m.z();
+      EXPECT_LT(deep_m, 0.4F) << i << ": a candidate has parts of both";
+    }
+  }
+  EXPECT_LE(hidden, 6);  // frames in which too little shows
+}
+
 TEST_F(Identity, SurvivesASecondOutOfView) {
   EXPECT_EQ(See(Shot({PersonAt(0.2, 2.5)}, 0)), std::vector<int>{1});
   for (int i = 1; i < 30; ++i) See(Shot({}, i));

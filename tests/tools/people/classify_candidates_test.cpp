@@ -171,7 +171,7 @@ struct TracksAndPart {
     tracks[0].age = tracks[1].age = user.age = options.classification.mature_age + 1;
     user.candidate.track = 0;
     part.candidate.region.mean_m = {0.1F, 0, 3.6F};
-    part.candidate.may_return = true;
+    part.candidate.may_return_as = {1};
   }
   bool MayReturn() const { return MayReturnBeside(PointGrid{}, part, user, tracks, 0.0, options); }
   PeopleOptions options;
@@ -185,7 +185,7 @@ TEST(MayReturnBeside, IsWhereALostTrackIsExpectedAndTheUserIsNot) {
   near.part.candidate.region.mean_m.z() = 3.2F;
   EXPECT_FALSE(near.MayReturn());
   TracksAndPart nobody_lost;
-  nobody_lost.part.candidate.may_return = false;
+  nobody_lost.part.candidate.may_return_as.clear();
   EXPECT_FALSE(nobody_lost.MayReturn());
   TracksAndPart young;  // it may be a chance detection of half a person
   young.user.age = young.options.classification.mature_age;

@@ -40,13 +40,20 @@ TEST(MergeByTracks, LeavesARegionBesideWithoutAnOccluderBetween) {
   EXPECT_EQ(BroadBehind({}).size(), 2U);
 }
 
-// The regions that are left of a tracked body and of a piece 0.3 m behind its side, which is within
-// an arm's reach. A second track is lost; it was last seen at `lost_at_m`.
-size_t MergePieceBehind(const Eigen::Vector3f& lost_at_m) {
-  const tests::Box body{{-0.2, -0.6, 3.0}, {0.2, 0.6, 3.1}},
-      piece{{0.25, 0.0, 3.3}, {0.55, 0.3, 3.4}};
-  const PointGrid grid = GridOf(Shot({}, 0, {body, piece}));
-  const auto cells_between = [&](float near_m, float far_m) {
+// A tracked body and a piece behind its side, within an arm's reach. A second track was last seen
+// at `other_at_m`, at most with `other_m2` of surface; the user's one owns `piece` or not.
+struct BodyAndPiece {
+  BodyAndPiece(const tests::Box& piece, const Eigen::Vector3f& other_at_m) {
+    const tests::Box body{{-0.2, -0.6, 3.0}, {0.2, 0.6, 3.1}};
+    grid = GridOf(Shot({}, 0, {body, piece}));
+    regions = {CellsBetween(2.9F, 3.15F), CellsBetween(3.2F, 3.45F)};
+    owner.assign(static_cast<size_t>(grid.cells()), -1);
+    Own(0, 0);
+    tracks[0].mean_m = regions[0].mean_m;
+    tracks[1].mean_m = other_at_m;
+  }
+
+  Region CellsBetween(float near_m, float far_m) const {
     std::vector<int> cells;
     for (int i = 0; i < grid.cells(); ++i) {
       const Eigen::Vector3f& p = grid.at(i);
@@ -54,21 +61,63 @@ size_t MergePieceBehind(const Eigen::Vector3f& lost_at_m) {
         cells.push_back(i);
     }
     return depth::MakeRegion(grid, std::move(cells));
-  };
-  std::vector<Region> regions{cells_between(2.9F, 3.15F), cells_between(3.2F, 3.45F)};
-  std::vector<int> owner(static_cast<size_t>(grid.cells()), -1);
-  for (const int cell : regions[0].cells) owner[static_cast<size_t>(cell)] = 0;
-  Track user, lost;
-  user.mean_m = regions[0].mean_m;
-  lost.mean_m = lost_at_m;
-  RoomShape shape;
-  shape.plane_of.assign(owner.size(), -1);
-  return MergePieces(grid, std::move(regions), shape, owner, {user, lost}, 0.1).size();
-}
+  }
+  void Own(size_t region, int track, size_t step = 1) {
+    for (size_t i = 0; i < regions[region].cells.size(); i += step)
+      owner[static_cast<size_t>(regions[region].cells[i])] = track;
+  }
+  // The number of regions that are left.
+  size_t Merge() const {
+    RoomShape shape;
+    shape.plane_of.assign(owner.size(), -1);
+    return MergePieces(grid, regions, shape, owner, tracks, 0.1).size();
+  }
+  // The track that owns the region after those were released that hidden tracks may have.
+  int OwnerAfterRelease(size_t region) const {
+    std::vector<int> left = owner;
+    ReleaseReturning(grid, regions, tracks, 0.1, CandidateOptions{}, left);
+    return FindMainOwner(regions[region], left, tracks.size());
+  }
+
+  PointGrid grid;
+  std::vector<Region> regions;
+  std::vector<int> owner;
+  std::vector<Track> tracks{2};
+};
+
+const tests::Box kBeside{{0.25, 0.0, 3.3}, {0.55, 0.3, 3.4}};   // within an arm's reach
+const tests::Box kBehind{{0.15, 0.0, 3.35}, {0.3, 0.3, 3.45}};  // closer, but a trunk behind
 
 TEST(MergePieces, LeavesAPieceWhereALostTrackMayComeIntoViewAgain) {
-  EXPECT_EQ(MergePieceBehind({0.5F, 0.0F, 3.5F}), 2U);
-  EXPECT_EQ(MergePieceBehind({-2.0F, 0.0F, 3.5F}), 1U);  // too far away: it is the user's hand
+  EXPECT_EQ(BodyAndPiece(kBeside, {0.5F, 0.0F, 3.5F}).Merge(), 2U);
+  // Too far away: it is the user's hand.
+  EXPECT_EQ(BodyAndPiece(kBeside, {-2.0F, 0.0F, 3.5F}).Merge(), 1U);
+}
+
+TEST(MergePieces, LeavesAPieceAtTheDepthOfSomebodyHiddenCloseBehind) {
+  EXPECT_EQ(BodyAndPiece(kBehind, {0.0F, 0.0F, 3.4F}).Merge(), 2U);
+  EXPECT_EQ(BodyAndPiece(kBehind, {0.0F, 0.0F, 3.05F}).Merge(), 1U);
+}
+
+TEST(MergePieces, TreatsSomebodyPartlyHiddenLikeSomebodyLost) {
+  const auto merge = [](float full_m2) {
+    BodyAndPiece scene(kBehind, {0.0F, 0.0F, 3.4F});
+    scene.Own(0, 1, 10);  // a tenth of the body's cells: 0.05 m2
+    scene.tracks[1].full_m2 = full_m2;
+    return scene.Merge();
+  };
+  EXPECT_EQ(merge(0.5F), 2U);
+  EXPECT_EQ(merge(0.06F), 1U);
+}
+
+TEST(ReleaseReturning, TakesFromATrackWhatAHiddenOneMayHave) {
+  BodyAndPiece taken(kBehind, {0.0F, 0.0F, 3.4F});
+  taken.Own(1, 0);
+  EXPECT_EQ(taken.OwnerAfterRelease(1), -1);
+  EXPECT_EQ(taken.OwnerAfterRelease(0), 0) << "a track keeps its largest region";
+  BodyAndPiece own(kBehind, {0.0F, 0.0F, 3.05F});
+  own.Own(1, 0);
+  EXPECT_EQ(own.OwnerAfterRelease(1), 0);
 }
 
 TEST(FindMainOwner, RegionWithoutCellsHasNone) {

@@ -108,7 +108,7 @@ TEST(ProposeCandidates, OnlyWhoScoredLikeAPersonMayReturn) {
     Confirm(Propose(Shot({}, 12), state), {}, 12 / 30.0, state);
     const Proposed back = Propose(Shot({PersonAt(0.6, 2.5)}, 13), state);
     EXPECT_EQ(back.candidates.size(), 1U);
-    return back.candidates.at(0).may_return;
+    return !back.candidates.at(0).may_return_as.empty();
   };
   EXPECT_TRUE(may_return(0.9));
   EXPECT_FALSE(may_return(0.4));
@@ -186,7 +186,7 @@ TEST(MergeCandidates, SharesAreWeighedByTheirCells) {
   b.isolated = a.has_head = true;
   b.has_head = false;
   b.track = 3;
-  b.may_return = true;
+  b.may_return_as = {1};
   const Candidate whole = MergeCandidates(proposed.scene, render.frame, a, b);
   const auto cells_a = static_cast<double>(a.region.cells.size());
   const auto cells_b = static_cast<double>(b.region.cells.size());
@@ -198,7 +198,7 @@ TEST(MergeCandidates, SharesAreWeighedByTheirCells) {
   EXPECT_FALSE(whole.isolated);
   EXPECT_TRUE(whole.has_head);
   EXPECT_EQ(whole.track, 3);
-  EXPECT_TRUE(whole.may_return);
+  EXPECT_EQ(whole.may_return_as, std::vector<int>{1});
 }
 
 TEST(MeetAlongRim, IsTrueForHalvesOfAPersonAndFalseForSeparatePeople) {

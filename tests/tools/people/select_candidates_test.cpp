@@ -38,6 +38,21 @@ TEST(SelectCandidates, RejectedCandidatesAreClassifiedAgainOnlyLater) {
   EXPECT_TRUE(IsWorthClassifying(0.1, 0.1, 60));
 }
 
+TEST(SelectCandidates, RejectedCandidatesWhereALostTrackIsExpectedDoNotWait) {
+  std::vector<Candidate> candidates(2);
+  std::vector<TentativeTrack> tentative(2);
+  for (int i = 0; i < 2; ++i) {
+    candidates[static_cast<size_t>(i)].region.cells = {i};
+    tentative[static_cast<size_t>(i)].cells = {i};
+  }
+  candidates[1].may_return_as = {0};
+  std::vector<Decision> decided;
+  const auto selected =
+      SelectCandidates(candidates, false, 0.04, PeopleOptions{}, tentative, decided);
+  ASSERT_EQ(selected.size(), 1U);
+  EXPECT_EQ(selected[0].region.cells[0], 1);
+}
+
 // Three rejected at once: one is classified per frame, the one that waited longest, and none twice
 // before the others; none is deleted earlier.
 TEST(SelectCandidates, ClassifiesOneLowScoringCandidatePerFrame) {

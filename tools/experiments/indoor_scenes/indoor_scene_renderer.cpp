@@ -149,11 +149,10 @@ IndoorSceneRenderer::Way IndoorSceneRenderer::Staying(int person, Random& random
 
 // People on lanes at different depths, walking left and right alternately.
 IndoorSceneRenderer::Way IndoorSceneRenderer::Crossing(int person, Random& random) const {
-  constexpr double kLane_m = 0.85;
   Way way;
   way.poses = WalkPoses(inputs_.clips, inputs_.frames, random);
   const double side = person % 2 ? 1 : -1;
-  const double z_m = kLane_m * (person - 0.5 * (scenario_.people - 1));
+  const double z_m = inputs_.lane_m * (person - 0.5 * (scenario_.people - 1));
   const double half_m = kHalfView * std::max(1.2, distance_m_ - z_m) * random.Uniform(0.7, 0.95);
   way.from_m = {-side * half_m, 0, z_m};
   way.to_m = {side * half_m, 0, z_m};

@@ -143,6 +143,7 @@ struct SceneSettings {
   Split split = Split::kTest;
   std::string method;
   bool physics = true, carried = false;
+  double lane_m = 0.0;
 };
 
 SceneSettings ReadSettings(ExperimentContext& context) {
@@ -160,6 +161,7 @@ SceneSettings ReadSettings(ExperimentContext& context) {
       parameters.OneOf("method", recon::ReconstructionMethods(), tracker::TrackerOptions().method);
   settings.physics = parameters.Flag("physics", true);
   settings.carried = parameters.Flag("carried_sensor", false);
+  settings.lane_m = parameters.Number("lane_m", kUsualLane_m, 0.1);
   return settings;
 }
 
@@ -184,10 +186,16 @@ std::vector<Table> RunIndoorScenes(ExperimentContext& context) {
   const auto model = LoadFetchedBody();
   const recon::Wardrobe wardrobe(model);
   const int width = settings.width;
-  const IndoorSceneInputs inputs{
-      model,           wardrobe,      clips,           settings.split,
-      width,           width * 3 / 4, settings.frames, settings.frame_step,
-      settings.carried};
+  const IndoorSceneInputs inputs{model,
+                                 wardrobe,
+                                 clips,
+                                 settings.split,
+                                 width,
+                                 width * 3 / 4,
+                                 settings.frames,
+                                 settings.frame_step,
+                                 settings.carried,
+                                 settings.lane_m};
 
   const auto scenarios = IndoorScenarios();
   std::vector<Job> jobs;

@@ -37,6 +37,9 @@ struct IndoorScenario {
 
 std::vector<IndoorScenario> IndoorScenarios();
 
+/// Between the lanes of people who cross; by hand: at arm's length.
+inline constexpr double kUsualLane_m = 0.85;
+
 /// Body model, clothes and motions that all scenarios share, and the size of their sequences.
 struct IndoorSceneInputs {
   const recon::BodyModel& model;
@@ -47,6 +50,7 @@ struct IndoorSceneInputs {
   int64_t frames = 90;     // at 30 Hz,
   int64_t frame_step = 1;  // ... of which each of this many reaches the tracker: a slower camera
   bool carried = false;    // whether the sensor is carried around instead of standing still
+  double lane_m = kUsualLane_m;  // between the lanes of people who cross
 };
 
 /// One performance of a scenario: same scenario, inputs and seed, same frames.
