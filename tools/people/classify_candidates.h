@@ -38,8 +38,8 @@ bool MayBePartsOfOnePerson(const Scene& scene, const PeopleOptions& options, con
 bool AreStacked(const Scene& scene, const PeopleOptions& options, const Detection& a,
                 const Detection& b);
 
-/// Whether `part` may be a lost person who comes into view again, and not a part of the long-lived
-/// `track`: it is not where that is predicted to be (camera space at `time_s`).
+/// Whether `part` may be a lost person who comes into view again (MayBeReturning at `time_s`), and
+/// not a part of the long-lived `track`.
 bool MayReturnBeside(const PointGrid& grid, const Detection& part, const Detection& track,
                      const std::vector<Track>& tracks, double time_s, const PeopleOptions& options);
 
