@@ -156,8 +156,13 @@ void SplitIntoCandidates(const DepthFrame& frame, const Scene& scene, const Cell
       if (!piece.cells.empty()) result.excluded.push_back(DescribeRegion(piece, Rule::kTooSmall));
       continue;
     }
+    const bool has_seed = std::any_of(seeds.begin(), seeds.end(), [&](const Seed& seed) {
+      return std::ranges::any_of(seed.cells, [&](int cell) {
+        return std::binary_search(piece.cells.begin(), piece.cells.end(), cell);
+      });
+    });
     result.candidates.push_back(
-        MakeCandidate(frame, scene, std::move(piece), !seeds.empty(), region_index, options));
+        MakeCandidate(frame, scene, std::move(piece), has_seed, region_index, options));
     result.candidates.back().owner =
         FindMainOwner(result.candidates.back().region, masks.owner, tracks.size());
   }

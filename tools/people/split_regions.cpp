@@ -125,6 +125,24 @@ class SeedGrowth {
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
 };
 
+// What is beyond the reach of every head may be a person whose head was not detected; beside a
+// track it may be a part of that person.
+std::vector<Region> AddRest(const PointGrid& grid, const Region& region,
+                            std::span<const Seed> seeds, std::vector<Region> pieces,
+                            const CandidateOptions& options) {
+  const auto is_of_track = [](const Seed& seed) { return seed.background != nullptr; };
+  if (std::any_of(seeds.begin(), seeds.end(), is_of_track)) return pieces;
+  std::vector<uint8_t> ignore(static_cast<size_t>(grid.cells()), 1);
+  for (const int cell : region.cells) ignore[static_cast<size_t>(cell)] = 0;
+  for (const Region& piece : pieces) {
+    for (const int cell : piece.cells) ignore[static_cast<size_t>(cell)] = 1;
+  }
+  for (Region& rest : FindConnectedRegions(grid, ignore, options.min_area_m2)) {
+    if (IsPersonSized(rest, options)) pieces.push_back(std::move(rest));
+  }
+  return pieces;
+}
+
 }  // namespace
 
 std::vector<Region> SplitBySeeds(const PointGrid& grid, const Region& region,
@@ -199,12 +217,13 @@ std::vector<Region> CutAtSeeds(const PointGrid& grid, const Region& region, std:
     if (seeds.empty() || (seeds.size() == 1 && IsOnePerson(region, seeds[0], options.seeds)))
       return {region};
     std::vector<Region> pieces = SplitBySeeds(grid, region, seeds, options.seeds);
-    if (seeds.size() == 1) return pieces;
+    if (seeds.size() == 1) return AddRest(grid, region, seeds, std::move(pieces), options);
     size_t least = 0;
     for (size_t i = 1; i < pieces.size(); ++i) {
       if (pieces[i].area_m2 < pieces[least].area_m2) least = i;
     }
-    if (IsPersonSized(pieces[least], options)) return pieces;
+    if (IsPersonSized(pieces[least], options))
+      return AddRest(grid, region, seeds, std::move(pieces), options);
     seeds.erase(seeds.begin() + static_cast<std::ptrdiff_t>(least));
   }
 }

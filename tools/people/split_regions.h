@@ -36,7 +36,9 @@ std::vector<Seed> FindSeeds(const PointGrid& grid, const Region& region,
                             const CandidateOptions& options);
 
 /// One segment per person. A seed whose segment is too small for a person is dropped, and its cells
-/// go to the other seeds.
+/// go to the other seeds. If no seed is a track's, connected parts beyond the reach of all seeds
+/// follow as segments of their own if they are large enough for a person, whose head may not have
+/// been detected.
 std::vector<Region> CutAtSeeds(const PointGrid& grid, const Region& region, std::vector<Seed> seeds,
                                const CandidateOptions& options);
 

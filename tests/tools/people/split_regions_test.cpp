@@ -86,6 +86,28 @@ TEST(SplitBySeeds, AssignsCellsToTheSeedWithTheShortestPath) {
   }
 }
 
+// A board of 3.2 m and a head at its one end: what is beyond a person's reach of it.
+TEST(CutAtSeeds, KeepsWhatIsBeyondReachIfItMayBeAPerson) {
+  const PointGrid grid = GridOf(Shot({}, 0, {{{-1.6, -0.5, 3.0}, {1.6, 0.5, 3.05}}}));
+  std::vector<int> all;
+  std::vector<int> at_end;
+  for (int i = 0; i < grid.cells(); ++i) {
+    if (!grid.valid(i) || grid.z(i) > 3.1F || std::abs(grid.at(i).y()) > 0.5F) continue;
+    all.push_back(i);
+    if (grid.at(i).x() > 1.4F) at_end.push_back(i);
+  }
+  const Region board = MakeRegion(grid, all);
+  ASSERT_GT(board.area_m2, 2.5F);
+  const auto cut = [&](float reach_m) {
+    return CutAtSeeds(grid, board, {{at_end, reach_m, nullptr}}, CandidateOptions{});
+  };
+  const std::vector<Region> halves = cut(2.0F);  // 1.3 m: horizontal steps cost more
+  ASSERT_EQ(halves.size(), 2U);
+  EXPECT_EQ(halves[0].cells.size() + halves[1].cells.size(), all.size());
+  EXPECT_LT(halves[1].mean_m.x(), halves[0].mean_m.x());
+  EXPECT_EQ(cut(4.48F).size(), 1U) << "the strip that is left is too narrow for a person";
+}
+
 TEST(FindHeads, FindsTheHead) {
   const CapsuleRender render = Shot({PersonAt(0.2, 2.5)});
   const Proposed proposed = ProposeAlone(render);
