@@ -196,7 +196,8 @@ TEST(Background, IsResetWhenTheSensorMoves) {
   EXPECT_EQ(std::count(state.steady.begin(), state.steady.end(), 0), 40 * 30);
 }
 
-// Somebody who was recognised after some frames is not part of the room; a sofa behind them is.
+// What was learned of somebody before they were recognised is forgotten, unless it was seen for so
+// long that it is background.
 TEST(Background, ForgetsAPersonWhoWasNotRecognisedAtFirst) {
   const auto is_certain_after = [](int frames) {
     const CapsuleRender render = Shot({PersonAt(0, 2.5)});

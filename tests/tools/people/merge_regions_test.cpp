@@ -40,8 +40,8 @@ TEST(MergeByTracks, LeavesARegionBesideWithoutAnOccluderBetween) {
   EXPECT_EQ(BroadBehind({}).size(), 2U);
 }
 
-// A tracked body and a piece behind its side, within an arm's reach. A second track was last seen
-// at `other_at_m`, at most with `other_m2` of surface; the user's one owns `piece` or not.
+// The body of a track and a piece behind its side, which no track owns at first. A second track is
+// predicted at `other_at_m`.
 struct BodyAndPiece {
   BodyAndPiece(const tests::Box& piece, const Eigen::Vector3f& other_at_m) {
     const tests::Box body{{-0.2, -0.6, 3.0}, {0.2, 0.6, 3.1}};

@@ -136,6 +136,8 @@ void AddJitterRows(const IndoorScore& s, Table& jitter) {
 
 constexpr int kWidestImage = 4096;  // pixels, by hand: wider than any depth camera's
 
+constexpr double kWidestLane_m = 3.0;  // by hand: two lanes fill a room
+
 struct SceneSettings {
   std::vector<std::string> sources;
   int performances = 0, frames = 0, frame_step = 1, width = 0, pictures_every = 0;
@@ -161,7 +163,7 @@ SceneSettings ReadSettings(ExperimentContext& context) {
       parameters.OneOf("method", recon::ReconstructionMethods(), tracker::TrackerOptions().method);
   settings.physics = parameters.Flag("physics", true);
   settings.carried = parameters.Flag("carried_sensor", false);
-  settings.lane_m = parameters.Number("lane_m", kUsualLane_m, 0.1);
+  settings.lane_m = parameters.Number("lane_m", kUsualLane_m, 0.1, kWidestLane_m);
   return settings;
 }
 
