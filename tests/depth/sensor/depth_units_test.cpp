@@ -123,6 +123,16 @@ TEST(DepthCensus, RefusesImpossibleDepthsWithoutSuggestingAnOption) {
   EXPECT_EQ(suspicion->option, "");
 }
 
+// A depth camera on a table sees its top, some centimetres before the lens.
+TEST(DepthCensus, DoesNotSuspectATableRightBeforeTheCamera) {
+  DepthFrame frame = RoomFrame();
+  const size_t table = frame.depth_mm.size() / 10;
+  for (size_t i = frame.depth_mm.size() - table; i < frame.depth_mm.size(); ++i)
+    frame.depth_mm[i] = static_cast<uint16_t>(60 + i % 30);
+  const auto suspicion = Judged(frame);
+  EXPECT_FALSE(suspicion) << suspicion->looks;
+}
+
 // As in data sets of Kinect v2 depths that use all 16 bits for 4.5 m.
 TEST(DepthCensus, RefusesDepthsStretchedTo16Bits) {
   const auto suspicion = Judged(Changed([](int mm) { return std::min(mm * 65535 / 4500, 65535); }));
