@@ -1,6 +1,7 @@
 #include "tools/tracker/tracker.h"
 
 #include <chrono>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,12 @@
 
 namespace ossa::tracker {
 namespace {
+
+std::map<int, Eigen::Vector3d> PositionsOf(const std::vector<Body>& bodies) {
+  std::map<int, Eigen::Vector3d> positions_m;
+  for (const Body& body : bodies) positions_m[body.id] = body.position_m;
+  return positions_m;
+}
 
 SmoothingOptions ResolveSmoothing(const TrackerOptions& options) {
   if (options.smoothing) return *options.smoothing;
@@ -147,6 +154,7 @@ BodyFrame Tracker::TrackFilled(const depth::DepthFrame& frame) {
   const auto filled = depth::FillScatteredHoles(frame);
   BodyFrame result = TrackAsMounted(filled ? *filled : frame);
   if (filled) ClearHoles(frame.view(), result);
+  times_.AddPeople(PositionsOf(result.bodies));
   const double total = watch.milliseconds();
   result.ms.segment += total - result.ms.total;
   result.ms.total = total;

@@ -247,7 +247,8 @@ class Tracker {
   /// The scene of TrackerOptions::scene; null without. Valid until the next frame: with
   /// Mount::kAuto the tracker may be replaced then.
   Scene* scene();
-  /// A line for the user if the times of the first frames cannot be seconds; once.
+  /// A line for the user if the times of the first frames cannot be seconds, or if people move so
+  /// fast by them that the frame rate must be wrong; each once.
   std::optional<std::string> TakeWarning();
   /// Deletes all tracks, the frames held by the lag (call DrainLag before), the found mount of
   /// Mount::kAuto and the found rotation of Turn::kAuto; restarts the scene.
