@@ -13,16 +13,17 @@ namespace ossa::people {
 
 /// A segment of the scene that may be one person, by geometry and the tracks of earlier frames.
 struct Candidate {
-  std::vector<int32_t> pixels;     // v * width + u of the full image, ascending
-  Region region;                   // on the grid
-  int track = -1;                  // index of the track with which it overlaps, or -1
-  int owner = -1;                  // index of the track that most of its cells belonged to, or -1
-  std::vector<int> absorbed;       // other tracks that proved to be parts of the same person
-  std::vector<int> may_return_as;  // lost tracks, as indices, that are expected near here
-  bool recently_rejected = false;  // it had a low score in a recent frame
-  bool has_head = false;           // a head was detected in it by shape
-  bool at_top = false;             // it reaches the image's upper border
-  double flat_share = 0;           // share of its cells that lie on flat surface
+  std::vector<int32_t> pixels;       // v * width + u of the full image, ascending
+  Region region;                     // on the grid
+  int track = -1;                    // index of the track with which it overlaps, or -1
+  int owner = -1;                    // index of the track that most of its cells belonged to, or -1
+  std::vector<int> absorbed;         // other tracks that proved to be parts of the same person
+  std::vector<int> may_return_as;    // lost tracks, as indices, that are expected near here
+  bool recently_rejected = false;    // it had a low score in a recent frame
+  bool holds_likely_person = false;  // what lately seemed a person alone is a part of it
+  bool has_head = false;             // a head was detected in it by shape
+  bool at_top = false;               // it reaches the image's upper border
+  double flat_share = 0;             // share of its cells that lie on flat surface
   double foreground_share = 0;  // share of its cells in front of the known background; 0 where it
                                 // may be part of a tracked person
   float foreground_m2 = 0;      // surface in front of the background, without its rims

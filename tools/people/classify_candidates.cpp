@@ -231,7 +231,8 @@ std::vector<Detection> ClassifyCandidates(const ClassificationInput& input,
   ParallelFor(result.size(), input.options.threads,
               [&](size_t i) { ApplyPoseNetwork(input, result[i]); });
   CropTracksAroundHeads(input, result, decided);
-  if (!input.scene.fresh) return result;
+  CropLikelyAroundHeads(input, result, decided);
+  if (!input.scene.fresh && !input.thorough) return result;
   const InitiationOptions& initiation = input.options.initiation;
   if (!HasPerson(result, initiation)) RetryAroundHeads(input, result, decided);
   if (!HasPerson(result, initiation)) RetryWithJoinedPieces(input, result, decided);

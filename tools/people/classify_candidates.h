@@ -12,6 +12,8 @@ struct ClassificationInput {
   const Scene& scene;
   const std::vector<Track>& tracks;
   const PeopleOptions& options;
+  // Whether rejected candidates are also cropped and joined, as always in a fresh scene.
+  bool thorough = false;
 };
 
 /// Classifies the candidates by the forest, and by the pose network where there is one. Pairs that

@@ -4,6 +4,7 @@
 
 #include "depth/base/stopwatch.h"
 #include "tools/people/classify_candidates.h"
+#include "tools/people/classify_detection.h"
 #include "tools/people/measure_body.h"
 #include "tools/people/propose_candidates.h"
 #include "tools/people/track_prediction.h"
@@ -48,13 +49,17 @@ void DistributeTime(double frame_ms, double classification_ms, PeopleInFrame& re
 std::vector<Detection> ClassifyPeople(const ClassificationInput& input,
                                       std::vector<Candidate> candidates,
                                       std::vector<TentativeTrack>& tentative,
-                                      std::vector<Decision>& decided) {
+                                      ThoroughSearch& search, std::vector<Decision>& decided) {
   const PeopleOptions& options = input.options;
   const double time_s = input.frame.time_s;
   const bool fresh = input.scene.fresh;
   auto selected =
       SelectCandidates(std::move(candidates), fresh, time_s, options, tentative, decided);
   auto detections = ClassifyCandidates(input, std::move(selected), decided);
+  const bool found = std::ranges::any_of(detections, [&](const Detection& detection) {
+    return Passes(detection, options.initiation);
+  });
+  if (input.thorough) search.Note(time_s, found);
   auto people =
       SelectPeople(std::move(detections), fresh, time_s, options.initiation, tentative, decided);
   for (Detection& person : people) {
@@ -87,6 +92,20 @@ void AddPeople(const depth::Camera& camera, const std::vector<int>& ids,
 
 }  // namespace
 
+bool ThoroughSearch::IsDue(bool fresh_scene, bool has_tracked, double time_s,
+                           double every_s) const {
+  constexpr int kMostInARow = 8;  // frames, by hand: who is not accepted by then is left alone
+  if (fresh_scene) return true;
+  if (has_tracked) return false;
+  const bool goes_on = found_in_a_row_ > 0 && found_in_a_row_ < kMostInARow;
+  return goes_on || time_s - last_s_ >= every_s || time_s < last_s_;
+}
+
+void ThoroughSearch::Note(double time_s, bool found) {
+  last_s_ = time_s;
+  found_in_a_row_ = found ? found_in_a_row_ + 1 : 0;
+}
+
 PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& classifier,
                            PeopleState& state, const PeopleOptions& usual) {
   const Stopwatch watch;
@@ -107,9 +126,14 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
   const std::vector<Region> rivals = FindRivals(proposed.candidates);
 
   const Stopwatch classification_watch;
-  const ClassificationInput input{classifier, frame, scene, tracks, options};
+  const bool has_tracked = std::ranges::any_of(tracks, [&](const Track& track) {
+    return frame.time_s - track.last_seen_s < options.search_every_s;
+  });
+  const bool thorough =
+      state.search.IsDue(scene.fresh, has_tracked, frame.time_s, options.search_every_s);
+  const ClassificationInput input{classifier, frame, scene, tracks, options, thorough};
   std::vector<Detection> people =
-      ClassifyPeople(input, std::move(proposed.candidates), state.tentative, decided);
+      ClassifyPeople(input, std::move(proposed.candidates), state.tentative, state.search, decided);
   const double classification_ms = classification_watch.milliseconds();
 
   MeasurePeople(input, people);

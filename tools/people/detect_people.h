@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -13,12 +14,28 @@
 /// Person detection and tracking: who is in the image, and which pixels belong to whom.
 namespace ossa::people {
 
+/// When candidates are searched thoroughly, for people who could not be told from furniture in the
+/// first frame: while nobody is tracked, from time to time, and in some frames after somebody was
+/// found, who is accepted only after several.
+class ThoroughSearch {
+ public:
+  /// `every_s`: between two searches.
+  bool IsDue(bool fresh_scene, bool has_tracked, double time_s, double every_s) const;
+  /// Notes that a frame was searched, and whether somebody was found.
+  void Note(double time_s, bool found);
+
+ private:
+  double last_s_ = -std::numeric_limits<double>::infinity();
+  int found_in_a_row_ = 0;  // frames
+};
+
 /// The state between frames.
 struct PeopleState {
   FrameRate rate;
   depth::SceneState scene;
   TrackList tracks;                       // confirmed and lost
   std::vector<TentativeTrack> tentative;  // not accepted as people so far
+  ThoroughSearch search;                  // while nobody is tracked
 };
 
 struct Person {

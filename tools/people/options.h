@@ -286,6 +286,8 @@ struct InitiationOptions {
   double forget_s = 2.0;           // age of an unseen tentative track when it is deleted
   int max_observations = 8;        // in the mean of a tentative track
   double unbroken_s = 0.12;        // three frames at 30 Hz: single ones may be missed
+  double likely_score = 0.9;       // by hand: a tentative track that may be a person's
+  double likely_share = 0.8;       // of its cells: it is a part of a larger segment; by hand
   double min_common_share = 0.6;   // of the larger segment's cells: the same object as before,
   float same_depth_m = 0.3F;       // ... if it is not nearer or farther by more: half a step
   float step_m = 0.25F;  // largest movement between two observations of moving foreground,
@@ -370,6 +372,7 @@ struct PeopleOptions {
   InitiationOptions initiation;
   MeasureOptions measure;
   AssociationOptions association;
+  double search_every_s = 0.5;  // by hand: while nobody is tracked; ThoroughSearch
   int threads = 1;              // for classification, >= 1; the result does not depend on it
   bool trace_surfaces = false;  // PeopleInFrame::decisions also lists furniture and background
 };

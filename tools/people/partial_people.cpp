@@ -126,6 +126,14 @@ void CropTracksAroundHeads(const ClassificationInput& input, std::vector<Detecti
   }
 }
 
+void CropLikelyAroundHeads(const ClassificationInput& input, std::vector<Detection>& detections,
+                           std::vector<Decision>& decided) {
+  for (Detection& detection : detections) {
+    if (!detection.candidate.holds_likely_person) continue;
+    if (!Passes(detection, input.options.initiation)) CropAroundHeads(input, detection, decided);
+  }
+}
+
 void RetryWithJoinedPieces(const ClassificationInput& input, std::vector<Detection>& detections,
                            std::vector<Decision>& decided) {
   auto whole = FindPersonInPieces(input);

@@ -18,6 +18,10 @@ void RetryAroundHeads(const ClassificationInput& input, std::vector<Detection>& 
 void CropTracksAroundHeads(const ClassificationInput& input, std::vector<Detection>& detections,
                            std::vector<Decision>& decided);
 
+/// The same of what lately seemed a person alone and is part of a larger region in this frame.
+void CropLikelyAroundHeads(const ClassificationInput& input, std::vector<Detection>& detections,
+                           std::vector<Decision>& decided);
+
 /// Joins rejected regions, most of them too small to be candidates, which may be one person whose
 /// middle an arm or a held object occludes. That person replaces the detections it consists of.
 void RetryWithJoinedPieces(const ClassificationInput& input, std::vector<Detection>& detections,

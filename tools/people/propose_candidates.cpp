@@ -126,12 +126,18 @@ Region RemoveWalls(const Scene& scene, Region piece, std::span<const HeadBlob> h
   return piece;
 }
 
-// Whether a region is what is left to see of somebody who lies on the floor or behind something.
+// Whether a region is what is left to see of somebody who lies on the floor or behind something,
+// or most of a tracked person of whom little more was visible.
 bool IsRestOfPerson(const Region& region, const CellMasks& masks, const std::vector<Track>& tracks,
                     double time_s, const CandidateOptions& options) {
   if (region.area_m2 < options.min_rest_area_m2) return false;
   const int owner = FindMainOwner(region, masks.owner, tracks.size());
-  return owner >= 0 && time_s < tracks[static_cast<size_t>(owner)].certain_until_s;
+  if (owner < 0) return false;
+  const Track& track = tracks[static_cast<size_t>(owner)];
+  if (time_s < track.certain_until_s) return true;
+  const auto common = std::ranges::count_if(
+      region.cells, [&](int cell) { return masks.owner[static_cast<size_t>(cell)] == owner; });
+  return static_cast<double>(common) > kMajority * static_cast<double>(track.cells.size());
 }
 
 // Splits a connected region into segments that may be one person each.

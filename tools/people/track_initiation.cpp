@@ -141,7 +141,8 @@ Requirement RequireInFirstFrame(const Detection& detection, bool fresh_scene,
                                 const InitiationOptions& options) {
   const Candidate& candidate = detection.candidate;
   if (!candidate.may_return_as.empty()) return {Rule::kReturning, options.new_person_score};
-  if (detection.is_joined) return {Rule::kJoinedPieces, options.person_by_pose_score};
+  if (fresh_scene && detection.is_joined)
+    return {Rule::kJoinedPieces, options.person_by_pose_score};
   if (fresh_scene && IsVerifiedByPose(detection))
     return {Rule::kFreshScene, RequireByPose(detection, options)};
   if (fresh_scene)
@@ -226,6 +227,21 @@ Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& opt
   return decision;
 }
 
+// Whether an earlier observation with the score of a person is a part of this candidate now: with
+// the furniture that they touch one connected region, in this frame and not in that.
+bool HoldsLikelyPerson(const Candidate& candidate, const InitiationOptions& options,
+                       const std::vector<TentativeTrack>& tentative) {
+  const auto& cells = candidate.region.cells;
+  return candidate.track < 0 && std::ranges::any_of(tentative, [&](const TentativeTrack& track) {
+           const auto size = static_cast<double>(track.cells.size());
+           if (track.mean_score < options.likely_score ||
+               size > options.min_common_share * static_cast<double>(cells.size()))
+             return false;
+           return static_cast<double>(CountCommon(cells, track.cells)) >
+                  options.likely_share * size;
+         });
+}
+
 // Candidates with a low score, which are not classified in every frame. To spread the cost, one is
 // due per frame, the one that waited longest, and those that waited for max_retry_s. Where a lost
 // track is expected there is no wait: who comes out from behind somebody scores higher every frame.
@@ -235,7 +251,8 @@ class RetrySchedule {
                 const PeopleOptions& options, std::vector<TentativeTrack>& tentative) {
     double longest_s = 0.0;
     for (const Candidate& candidate : candidates) {
-      if (candidate.track >= 0 || IsForeground(candidate)) continue;
+      if (candidate.track >= 0 || IsForeground(candidate) || candidate.holds_likely_person)
+        continue;
       const TentativeTrack* before =
           FindTentative(candidate, time_s, options.initiation, tentative);
       if (before == nullptr || before->mean_score >= options.classification.rejected_score)
@@ -289,6 +306,8 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
     return fresh_scene || time_s < track.last_seen_s - recon::FrameSteps::kJitter_s ||
            time_s - track.last_seen_s >= options.initiation.forget_s;
   });
+  for (Candidate& candidate : candidates)
+    candidate.holds_likely_person = HoldsLikelyPerson(candidate, options.initiation, tentative);
   const RetrySchedule schedule(candidates, time_s, options, tentative);
   std::vector<Candidate> selected;
   for (Candidate& candidate : candidates) {

@@ -245,6 +245,24 @@ TEST(ProposeCandidates, NewCandidateBesideATrackedPersonMayBeAPartOfIt) {
   EXPECT_TRUE(NewBeside(1.1F).isolated);
 }
 
+// Of who holds a board before the chest little more than head and shoulders is visible, in one
+// frame a little less.
+TEST(ProposeCandidates, TrackedPersonOfWhomLittleIsVisibleStays) {
+  const auto board = [](double width_m) {
+    return tests::Box{{0.0, 0.0, 2.0}, {width_m, 0.3, 2.1}};
+  };
+  PeopleState state;
+  const CapsuleRender before = Shot({}, 0, {board(0.27)}), now = Shot({}, 1, {board(0.21)});
+  const Proposed first = Propose(before, state);
+  ASSERT_EQ(first.candidates.size(), 1U);
+  EXPECT_GE(first.candidates[0].region.area_m2, CandidateOptions{}.min_area_m2);
+  EXPECT_TRUE(ProposeAlone(now).candidates.empty());
+  Confirm(first, first.candidates, before.frame.time_s, state);
+  const Proposed second = Propose(now, state);
+  ASSERT_EQ(second.candidates.size(), 1U);
+  EXPECT_EQ(second.candidates[0].track, 0);
+}
+
 // A plane that grew over somebody flat before a wall takes them from no track that scored like a
 // person.
 TEST(ProposeCandidates, NoPlaneGrowsOverAPerson) {

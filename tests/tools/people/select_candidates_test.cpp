@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "recon/filters/frame_steps.h"
+#include "tools/people/detect_people.h"
 #include "tools/people/options.h"
 #include "tools/people/track_initiation.h"
 
@@ -51,6 +52,28 @@ TEST(SelectCandidates, RejectedCandidatesWhereALostTrackIsExpectedDoNotWait) {
       SelectCandidates(candidates, false, 0.04, PeopleOptions{}, tentative, decided);
   ASSERT_EQ(selected.size(), 1U);
   EXPECT_EQ(selected[0].region.cells[0], 1);
+}
+
+// What scored like a person a moment ago, and is a part of a larger region now.
+TEST(SelectCandidates, RegionsWithALikelyPersonInThemDoNotWait) {
+  const auto holds_likely = [](double score, int cells_then, int common) {
+    Candidate candidate;
+    for (int cell = 0; cell < 100; ++cell) candidate.region.cells.push_back(cell);
+    std::vector<TentativeTrack> tentative(2);
+    tentative[0].cells = candidate.region.cells;  // the same region scored low, too
+    tentative[1].mean_score = score;
+    for (int i = 0; i < cells_then; ++i) tentative[1].cells.push_back(100 - common + i);
+    std::vector<Decision> decided;
+    const auto selected =
+        SelectCandidates({candidate}, false, 0.1, PeopleOptions{}, tentative, decided);
+    EXPECT_EQ(selected.size() + decided.size(), 1U);
+    return !selected.empty() && selected[0].holds_likely_person;
+  };
+  EXPECT_TRUE(holds_likely(0.95, 50, 50));
+  EXPECT_TRUE(holds_likely(0.95, 50, 45));
+  EXPECT_FALSE(holds_likely(0.95, 50, 35));  // most of it is elsewhere
+  EXPECT_FALSE(holds_likely(0.8, 50, 50));
+  EXPECT_FALSE(holds_likely(0.95, 70, 70));  // nearly all of the region
 }
 
 // Three rejected at once: one is classified per frame, the one that waited longest, and none twice
@@ -117,6 +140,28 @@ TEST(SelectCandidates, ClassifiesTheLargestIfThereAreTooMany) {
   EXPECT_EQ(selected[0].region.cells, large.region.cells);
   ASSERT_EQ(decided.size(), 1U);
   EXPECT_EQ(decided[0].rule, Rule::kCandidateLimit);
+}
+
+TEST(ThoroughSearch, IsDueFromTimeToTimeUntilSomebodyIsTracked) {
+  constexpr double kEvery_s = 0.5;
+  ThoroughSearch search;
+  EXPECT_TRUE(search.IsDue(true, false, 0.0, kEvery_s));
+  search.Note(0.0, false);
+  EXPECT_FALSE(search.IsDue(false, false, 0.4, kEvery_s));
+  EXPECT_TRUE(search.IsDue(false, false, 0.5, kEvery_s));
+  EXPECT_FALSE(search.IsDue(false, true, 0.5, kEvery_s));
+  search.Note(0.5, true);
+  EXPECT_TRUE(search.IsDue(false, false, 0.53, kEvery_s));  // until they are accepted
+  EXPECT_FALSE(search.IsDue(false, true, 0.53, kEvery_s));
+  search.Note(0.53, false);
+  EXPECT_FALSE(search.IsDue(false, false, 0.56, kEvery_s));
+  EXPECT_TRUE(search.IsDue(false, false, 0.1, kEvery_s));  // the clock started again
+  int in_a_row = 0;
+  for (double time_s = 2.0; search.IsDue(false, false, time_s, kEvery_s); time_s += 0.03) {
+    search.Note(time_s, true);
+    ASSERT_LT(++in_a_row, 20);
+  }
+  EXPECT_GE(in_a_row, InitiationOptions{}.standing_observations);
 }
 
 }  // namespace

@@ -140,10 +140,12 @@ depth::DepthFrame PersonBetweenThings(double reach_m) {
 }
 
 // The largest segment of the last classification, where crops around heads need such a score.
-// `tracks`: none in the first frame; else of the frame before, and all candidates continue the
-// first.
+// `tracks`: of the frame before, where all candidates continue the first; `is_likely`: all hold
+// what seemed a person in the frame before. Without either it is the first frame.
 people::Detection LargestPiece(depth::DepthFrame frame, double head_piece_score,
-                               const std::vector<people::Track>& tracks = {}) {
+                               const std::vector<people::Track>& tracks = {},
+                               bool is_likely = false) {
+  const bool is_later = is_likely || !tracks.empty();
   const ModelSet models = ModelSet::Shipped(TrackerOptions{}.method);
   const auto targets = people::FindJointTargets(*models.forest, models.forest_file);
   const auto network = NetworkOfError(tracks.empty() ? -2.0F : 1.0F);
@@ -153,10 +155,13 @@ people::Detection LargestPiece(depth::DepthFrame frame, double head_piece_score,
   depth::Scene scene = depth::MeasureScene(frame, state, options.scene);
   auto proposed = people::ProposeCandidates(frame, scene, {}, options.association.reidentify,
                                             options.candidates, false);
-  if (!tracks.empty()) {
+  if (is_later) {
     frame.time_s += 1.0 / 30.0;
     scene = depth::MeasureScene(frame, state, options.scene);
-    for (people::Candidate& candidate : proposed.candidates) candidate.track = 0;
+    for (people::Candidate& candidate : proposed.candidates) {
+      candidate.track = tracks.empty() ? -1 : 0;
+      candidate.holds_likely_person = is_likely;
+    }
   }
   std::vector<people::Decision> decided;
   const auto detections = people::ClassifyCandidates(
@@ -198,6 +203,37 @@ TEST(FirstFrame, ATrackWithALowScoreIsCroppedAroundItsHeadInLaterFrames) {
   EXPECT_LT(whole.evidence.score, people::InitiationOptions{}.person_by_pose_score);
   EXPECT_LT(Width_m(cut), 1.5);
   EXPECT_GE(cut.evidence.score, kNeeded);
+}
+
+// What scored like a person a moment ago may have touched the objects since.
+TEST(FirstFrame, WhoSeemedAPersonIsCroppedAroundTheirHeadInLaterFrames) {
+  OSSA_NEEDS_MODEL();
+  const depth::DepthFrame frame = PersonBetweenThings(1.0);
+  const people::Detection whole = LargestPiece(frame, kNever, {}, true);
+  const people::Detection cut = LargestPiece(frame, kNeeded, {}, true);
+  EXPECT_GT(Width_m(whole), 1.8);
+  EXPECT_LT(Width_m(cut), 1.5);
+  EXPECT_GE(cut.evidence.score, kNeeded);
+}
+
+// In the first frame too little of them is visible; later they do not stand out from the room.
+TEST(FirstFrame, WhoWasNotFoundIsSearchedAgainWhileNobodyIsTracked) {
+  OSSA_NEEDS_MODEL();
+  TrackerOptions options;
+  options.turn = Turn::kNone;
+  Tracker tracker(options);
+  depth::DepthFrame frame = PersonBehindAnArm();
+  const depth::DepthFrame whole = frame;
+  for (size_t i = 0; i < frame.depth_mm.size() / 2; ++i) frame.depth_mm[i] = 0;
+  EXPECT_EQ(tracker.Track(frame).bodies.size(), 0U);
+  size_t bodies = 0;
+  for (int f = 1; f <= 30; ++f) {
+    frame = whole;
+    frame.index = f;
+    frame.time_s = f / 30.0;
+    bodies = tracker.Track(frame).bodies.size();
+  }
+  EXPECT_EQ(bodies, 1U);
 }
 
 }  // namespace
