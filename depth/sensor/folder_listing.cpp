@@ -13,6 +13,7 @@
 #include "depth/sensor/depth_list.h"
 #include "depth/sensor/frame_names.h"
 #include "depth/sensor/source_internal.h"
+#include "depth/sensor/stray_scanner.h"
 
 namespace ossa::depth {
 namespace {
@@ -203,9 +204,9 @@ fs::path FileOf(const fs::path& place, const DepthList::Entry& entry) {
   return has_blanks ? whole : (place / entry.file).lexically_normal();
 }
 
-// Reads the list in `place`, of images anywhere or only of those in the folder `only`.
-FrameList ReadFrameList(const fs::path& place, const std::optional<fs::path>& only) {
-  DepthList list = ReadDepthList(place);
+// The frames of a list in `place`, of images anywhere or only of those in the folder `only`.
+FrameList MakeFrameList(DepthList list, const fs::path& place,
+                        const std::optional<fs::path>& only) {
   FrameList found{place / "depth.txt", {}, {}, std::move(list.bad_lines), list.unit_s};
   for (const DepthList::Entry& entry : list.entries) {
     const fs::path path = FileOf(place, entry);
@@ -228,6 +229,13 @@ void NoteBadLines(const FrameList& list, const SourceOptions& options) {
                                        std::to_string(list.bad_lines.size()));
 }
 
+// Frames by Stray Scanner's odometry.csv above the folder.
+std::vector<ListedFrame> FramesOfScanner(const fs::path& folder) {
+  if (folder.filename() != "depth") return {};
+  const fs::path recording = folder.parent_path();
+  return MakeFrameList(ReadScannerTimes(recording), recording, folder).frames;
+}
+
 // Frames by a depth.txt beside the images or, as in TUM's data sets, above their folder. A list
 // that names no existing file is another program's, if the folder has images.
 std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
@@ -236,7 +244,8 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
   const fs::path plain = here.has_filename() ? here : here.parent_path();
   for (const bool above : {false, true}) {
     FrameList list =
-        above ? ReadFrameList(plain.parent_path(), plain) : ReadFrameList(folder, std::nullopt);
+        above ? MakeFrameList(ReadDepthList(plain.parent_path()), plain.parent_path(), plain)
+              : MakeFrameList(ReadDepthList(folder), folder, std::nullopt);
     if (list.frames.empty()) continue;
     if (list.NamesAFile()) {
       NoteBadLines(list, options);
@@ -253,7 +262,7 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
                    what + " and the like: ignored");
     }
   }
-  return {};
+  return FramesOfScanner(plain);
 }
 
 bool HasDepthImage(const fs::path& folder) {

@@ -9,6 +9,7 @@
 #include "depth/image/depth_png.h"
 #include "depth/sensor/folder_listing_internal.h"
 #include "depth/sensor/source_internal.h"
+#include "depth/sensor/stray_scanner.h"
 
 namespace ossa::depth {
 namespace {
@@ -33,7 +34,14 @@ class FolderSource final : public FrameSource {
         listing_(std::move(listing)),
         camera_(camera),
         options_(options),
-        next_number_(listing_.frames.front().number) {}
+        has_confidence_(HasConfidence(fs::absolute(listing_.frames.front().path).lexically_normal(),
+                                      listing_.size)),
+        next_number_(listing_.frames.front().number) {
+    if (!has_confidence_ || !options_.note) return;
+    options_.note(NoteKind::kInfo, name_ +
+                                       ": readings of confidence 0, by the images in the folder "
+                                       "confidence beside depth, are left out");
+  }
 
   ReadResult Read(std::chrono::milliseconds) override {
     while (next_ < listing_.frames.size()) {
@@ -59,7 +67,10 @@ class FolderSource final : public FrameSource {
   Image<uint16_t> ReadFrame(const fs::path& path) const {
     Image<uint16_t> image = ReadDepthPng(path);
     const ImageSize size{image.width, image.height};
-    if (size == listing_.size) return image;
+    if (size == listing_.size) {
+      if (has_confidence_) RemoveUnconfident(fs::absolute(path).lexically_normal(), image);
+      return image;
+    }
     throw InputError(path.string() + ": expected " + SizeText(listing_.size) +
                      " like the other frames, found " + SizeText(size));
   }
@@ -97,6 +108,7 @@ class FolderSource final : public FrameSource {
   FolderListing listing_;
   Camera camera_;
   SourceOptions options_;
+  bool has_confidence_;
   size_t next_ = 0;
   Skipped skipped_;
   int64_t next_number_;  // number of the next expected frame
@@ -124,8 +136,8 @@ Camera ReadStatedCamera(const fs::path& file, ImageSize size, const SourceOption
 }
 
 // Camera files of Open3D's recorders and of scene data sets (ScanNet, DeepDeform, 3DMatch), beside
-// the images or above the depth folder, and ROS's calibration beside the images: above, it might be
-// a colour camera's.
+// the images or above the depth folder, there also of Stray Scanner, and ROS's calibration beside
+// the images: above, it might be a colour camera's.
 std::vector<fs::path> CameraFilesOfOthers(const fs::path& folder) {
   constexpr std::array kNames = {"camera_intrinsic.json", "intrinsic.json",
                                  "intrinsic_depth.txt",   "intrinsics.txt",
@@ -139,6 +151,7 @@ std::vector<fs::path> CameraFilesOfOthers(const fs::path& folder) {
   if (plain.filename() != "depth") return files;
   for (const char* name : kNames) files.push_back(plain.parent_path() / name);
   files.push_back(plain.parent_path() / "intrinsic/intrinsic_depth.txt");
+  files.push_back(plain.parent_path() / kScannerCameraFile);
   return files;
 }
 
@@ -157,7 +170,9 @@ std::optional<Camera> CameraOfOthers(const fs::path& folder, ImageSize size,
     std::string note = "its camera is used";
     std::optional<Camera> camera;
     try {
-      const Camera stated = ReadStatedCamera(file, size, options);
+      const bool is_scanner = file.filename() == kScannerCameraFile;
+      const Camera stated =
+          is_scanner ? ReadScannerCamera(file, size) : ReadStatedCamera(file, size, options);
       CheckCentre(stated, file);
       camera = stated;
     } catch (const InputError& error) {
