@@ -372,7 +372,7 @@ struct PeopleOptions {
   InitiationOptions initiation;
   MeasureOptions measure;
   AssociationOptions association;
-  double search_every_s = 0.5;  // by hand: while nobody is tracked; ThoroughSearch
+  double search_every_s = 2.0;  // by hand: a search takes up to 50 ms; ThoroughSearch
   int threads = 1;              // for classification, >= 1; the result does not depend on it
   bool trace_surfaces = false;  // PeopleInFrame::decisions also lists furniture and background
 };

@@ -227,7 +227,7 @@ TEST(FirstFrame, WhoWasNotFoundIsSearchedAgainWhileNobodyIsTracked) {
   for (size_t i = 0; i < frame.depth_mm.size() / 2; ++i) frame.depth_mm[i] = 0;
   EXPECT_EQ(tracker.Track(frame).bodies.size(), 0U);
   size_t bodies = 0;
-  for (int f = 1; f <= 30; ++f) {
+  for (int f = 1; f <= 75; ++f) {
     frame = whole;
     frame.index = f;
     frame.time_s = f / 30.0;
