@@ -46,12 +46,14 @@ TentativeTrack* FindMovingTentative(const Candidate& candidate, double time_s,
 }
 
 // The tentative track of the same object: at the same place, or nearby if it moves; null for a new
-// one.
-TentativeTrack* FindTentative(const Candidate& candidate, double time_s,
+// one. Regions that were joined are another object than each of them: their scores say nothing
+// about each other.
+TentativeTrack* FindTentative(const Candidate& candidate, bool is_joined, double time_s,
                               const InitiationOptions& options,
                               std::vector<TentativeTrack>& tentative) {
   const auto& cells = candidate.region.cells;
   const auto same = std::find_if(tentative.begin(), tentative.end(), [&](const auto& track) {
+    if (track.is_joined != is_joined) return false;
     const size_t larger = std::max(cells.size(), track.cells.size());
     if (std::abs(track.mean_m.z() - candidate.region.mean_m.z()) > options.same_depth_m)
       return false;  // somebody stands before it now
@@ -201,7 +203,8 @@ Decision DecidePiece(const Detection& piece, const InitiationOptions& options) {
 Decision DecideNew(bool fresh_scene, double time_s, const InitiationOptions& options,
                    std::vector<TentativeTrack>& tentative, Detection& detection) {
   const Candidate& candidate = detection.candidate;
-  TentativeTrack* before = FindTentative(candidate, time_s, options, tentative);
+  TentativeTrack* before =
+      FindTentative(candidate, detection.is_joined, time_s, options, tentative);
   const bool may_pass_at_once =
       before == nullptr || (!candidate.may_return_as.empty() && !before->was_rejected);
   const Requirement first = RequireInFirstFrame(detection, fresh_scene, options);
@@ -254,7 +257,7 @@ class RetrySchedule {
       if (candidate.track >= 0 || IsForeground(candidate) || candidate.holds_likely_person)
         continue;
       const TentativeTrack* before =
-          FindTentative(candidate, time_s, options.initiation, tentative);
+          FindTentative(candidate, false, time_s, options.initiation, tentative);
       if (before == nullptr || before->mean_score >= options.classification.rejected_score)
         continue;
       before_.emplace(&candidate, before);
@@ -295,6 +298,7 @@ TentativeTrack StartTentative(const Detection& detection, double time_s) {
   track.mean_score = detection.score;
   track.is_foreground = IsForeground(detection.candidate);
   track.was_contested = IsContested(detection);
+  track.is_joined = detection.is_joined;
   return track;
 }
 

@@ -24,6 +24,7 @@ struct TentativeTrack {
   bool was_contested = false;     // forest and network disagreed about an observation
   bool was_foreground = false;    // some of it was foreground
   bool is_foreground = false;     // most of it was foreground in the last observation
+  bool is_joined = false;         // it is one of several regions together (Detection::is_joined)
 };
 
 /// The first observation of a tentative track.

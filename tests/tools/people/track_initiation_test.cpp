@@ -63,6 +63,23 @@ TEST_F(NewPerson, IsAcceptedAtOnceInAFreshSceneAndElsewhereAfterThreeConfidentFr
   EXPECT_EQ(AcceptedIn(20, false, [](int f) { return Observation{f < 2 ? 0.98 : 0.7}; }), -1);
 }
 
+// A region with a low score does not count against it and others joined.
+TEST_F(NewPerson, JoinedFromRegionsIsAnotherObjectThanEachOfThem) {
+  const auto accepted_after = [&](bool is_joined) {
+    std::vector<TentativeTrack> tentative;
+    Detection part = Detect({0.05});
+    DecidePerson(false, 0.0, options_, tentative, part);
+    for (int frame = 1; frame <= 5; ++frame) {
+      Detection whole = Detect({0.99});
+      whole.is_joined = is_joined;
+      if (DecidePerson(false, frame / 30.0, options_, tentative, whole)) return frame;
+    }
+    return 0;
+  };
+  EXPECT_EQ(accepted_after(true), options_.standing_observations);
+  EXPECT_EQ(accepted_after(false), 0);
+}
+
 // A hand that the image or an object cuts off its arm looks like a person for a frame.
 TEST_F(NewPerson, BesideATrackedPersonIsNotAcceptedInOneFrame) {
   const auto accepted_in = [&](bool isolated, int frames) {
