@@ -59,7 +59,7 @@ DepthList ReadScannerTimes(const fs::path& recording) {
 }
 
 bool HasConfidence(const fs::path& depth_png, ImageSize size) {
-  constexpr uint8_t kHighest = 2;  // no unit; ARConfidenceLevel.high
+  constexpr uint8_t kHighest = 2;  // no unit; derived: ARConfidenceLevel.high
   if (depth_png.parent_path().filename() != "depth") return false;
   try {
     const Image<uint8_t> confidence = ReadLabelPng(FileOfConfidence(depth_png));
