@@ -16,8 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ImageSize kColour{1920,
-                            1440};  // pixels; derived: of ARKit's video, which the app records
+constexpr ImageSize kColour{1920, 1440};  // pixels; derived: of ARKit's video
 
 fs::path FileOfConfidence(const fs::path& depth_png) {
   return depth_png.parent_path().parent_path() / "confidence" / depth_png.filename();
