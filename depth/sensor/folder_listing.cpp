@@ -229,16 +229,25 @@ void NoteBadLines(const FrameList& list, const SourceOptions& options) {
                                        std::to_string(list.bad_lines.size()));
 }
 
-// Frames by Stray Scanner's odometry.csv above the folder.
-std::vector<ListedFrame> FramesOfScanner(const fs::path& folder) {
-  if (folder.filename() != "depth") return {};
+// Frames by Stray Scanner's odometry.csv above the folder of so many images; none with a rate of
+// the user's, which needs no times.
+std::vector<ListedFrame> FramesOfScanner(const fs::path& folder, size_t images,
+                                         const SourceOptions& options) {
+  if (folder.filename() != "depth" || options.fps) return {};
   const fs::path recording = folder.parent_path();
-  return MakeFrameList(ReadScannerTimes(recording), recording, folder).frames;
+  auto frames = MakeFrameList(ReadScannerTimes(recording), recording, folder).frames;
+  if (!frames.empty() && frames.size() < images && options.note) {
+    options.note(NoteKind::kWarning, (recording / "odometry.csv").string() +
+                                         ": expected the times of " + std::to_string(images) +
+                                         " depth images, found " + std::to_string(frames.size()) +
+                                         ": the others are left out (--fps reads all)");
+  }
+  return frames;
 }
 
 // Frames by a depth.txt beside the images or, as in TUM's data sets, above their folder. A list
 // that names no existing file is another program's, if the folder has images.
-std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
+std::vector<ListedFrame> FramesByList(const fs::path& folder, size_t images,
                                       const SourceOptions& options) {
   const fs::path here = fs::absolute(folder).lexically_normal();
   const fs::path plain = here.has_filename() ? here : here.parent_path();
@@ -254,7 +263,7 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
     }
     const std::string what =
         list.file.string() + ": expected seconds and files that are there, found " + list.first;
-    if (!has_images) throw InputError(what);
+    if (images == 0) throw InputError(what);
     // With a list of images the frames lose their times.
     const bool has_times = IsPngName(list.frames.front().path);
     if (options.note) {
@@ -262,7 +271,7 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, bool has_images,
                    what + " and the like: ignored");
     }
   }
-  return FramesOfScanner(plain);
+  return FramesOfScanner(plain, images, options);
 }
 
 bool HasDepthImage(const fs::path& folder) {
@@ -320,7 +329,7 @@ bool IsPngName(const fs::path& path) {
 FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& options) {
   Sorted sorted = SortOut(folder);
   FolderListing listing;
-  listing.frames = FramesByList(folder, !sorted.depth.empty(), options);
+  listing.frames = FramesByList(folder, sorted.depth.size(), options);
   if (!listing.frames.empty()) {
     std::set<fs::path> listed;
     for (const ListedFrame& frame : listing.frames) {

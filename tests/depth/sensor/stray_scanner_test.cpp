@@ -92,6 +92,23 @@ TEST_F(StrayScanner, OtherConfidencesAreNotUsed) {
   EXPECT_EQ(Next(*OpenSource(folder_.path().string())).frame.depth_mm[0], 700);
 }
 
+// As of an app that was killed.
+TEST_F(StrayScanner, FramesWithoutATimeAreLeftOutWithAWarningUnlessTheRateIsGiven) {
+  std::ofstream(folder_ / "odometry.csv") << "timestamp, frame, x\n1.5, 000000, 0\n1.6, 0000";
+  const auto count = [&](SourceOptions options) {
+    const auto source = OpenSource(folder_.path().string(), options);
+    int frames = 0;
+    while (Next(*source).status == ReadStatus::kFrame) ++frames;
+    return frames;
+  };
+  Notes notes;
+  SourceOptions options = notes.Options();
+  EXPECT_EQ(count(options), 1);
+  EXPECT_TRUE(notes.Tell("expected the times of 3 depth images, found 1")) << notes.text;
+  options.fps = 60.0;
+  EXPECT_EQ(count(options), 3);
+}
+
 TEST_F(StrayScanner, OtherTablesOfThatNameGiveNoTimes) {
   std::ofstream(folder_ / "odometry.csv") << "time,x,y\n1,0,0\n";
   const auto source = OpenSource(folder_.path().string());
