@@ -90,10 +90,13 @@ struct Destinations {
   }
 };
 
-void PrintMount() {
+void PrintMount(bool hangs) {
   PrintError(
-      "ossa track: the camera looks down from the ceiling: people are found by their heads, joints "
-      "by body_ceiling.ossa (--mount level: it does not)\n");
+      hangs
+          ? "ossa track: the camera looks down from the ceiling: people are found by their heads, "
+            "joints by body_ceiling.ossa (--mount level: it does not)\n"
+          : "ossa track: the camera does not look down from the ceiling after all (--mount "
+            "ceiling: it does)\n");
 }
 
 void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const TrackOptions& options,
@@ -124,7 +127,7 @@ void TrackToEnd(depth::FrameSource& source, tracker::Tracker& tracker, const Tra
     const auto bodies = tracker.TrackWithLag(read.frame);
     PrintWarning("track", options.source.name, tracker);
     const bool hung = std::exchange(hangs, tracker.mount() == tracker::Mount::kCeiling);
-    if (hangs && !hung && !options.quiet) PrintMount();
+    if (hangs != hung && !options.quiet) PrintMount(hangs);
     ++tracked;
     to.waiting.push_back(std::move(read.frame));
     if (bodies) to.Deliver(*bodies, run);

@@ -32,6 +32,41 @@ bool ShowsPerson(const BodyFrame& tracked) {
   return std::ssize(tracked.bodies) > joined;
 }
 
+double HighestScore(const BodyFrame& tracked) {
+  double highest = 0.0;
+  for (const Body& body : tracked.bodies) highest = std::max(highest, body.person_score);
+  return highest;
+}
+
+bool SeemsLevel(const BodyFrame& tracked, const MountOptions& options) {
+  return tracked.floor || HighestScore(tracked) >= options.level_person;
+}
+
+bool MountRevision::IsDue(double time_s) {
+  const double since_s = time_s - checked_s_;
+  if (since_s >= 0 && since_s < options_.every_s) return false;
+  checked_s_ = time_s;
+  return true;
+}
+
+MountFinder::View MountRevision::Add(const BodyFrame& level, const BodyFrame& from_above) {
+  using View = MountFinder::View;
+  const bool only_level =
+      from_above.bodies.empty() && HighestScore(level) >= options_.only_level_person;
+  const bool seems_level = only_level || SeemsLevel(level, options_);
+  const double sure = seems_level ? options_.sure_despite_level : options_.sure;
+  View seen = View::kUnknown;
+  if (HighestScore(from_above) >= sure) {
+    seen = View::kFromAbove;
+  } else if (seems_level && ShowsPerson(level)) {
+    seen = View::kLevel;
+  }
+  if (seen == View::kUnknown) return seen;
+  agreeing_ = seen == seen_ ? agreeing_ + 1 : 1;
+  seen_ = seen;
+  return agreeing_ >= options_.agreeing ? seen : View::kUnknown;
+}
+
 bool MountFinder::IsDue(const BodyFrame& tracked) {
   const double since_s = tracked.time_s - checked_s_;
   if (is_level_ || (since_s >= 0 && since_s < options_.every_s)) return false;

@@ -18,7 +18,9 @@ struct MountOptions {
   // rendered and real level images without a floor three have 0.94 and more, the others 0.63 and
   // less; with one two have 0.80 and 0.95. Behind a counter people before a wall have up to 0.97.
   double sure = 0.75, sure_despite_level = 0.97;
-  double level_person = 0.98;  // person score of the level models, [0, 1]
+  // Person scores of the level models, [0, 1], and where the ceiling's models find nobody: of 188
+  // real frames from the ceiling two have the second.
+  double level_person = 0.98, only_level_person = 0.9;
   float min_head_m =
       1.0F;  // anthropometry: above the floor, of a sitting person; a wall has lower bumps
   double floor_share = 0.15;  // of the valid cells, [0, 1], that are floor
@@ -30,6 +32,13 @@ struct MountOptions {
 /// Whether the level tracking of a frame is evidence for a level camera: it has a person who was
 /// not joined from pieces, which also happens from above.
 bool ShowsPerson(const BodyFrame& tracked);
+
+/// The highest person score, [0, 1]; 0 without bodies.
+double HighestScore(const BodyFrame& tracked);
+
+/// Whether what the level models found in a frame is evidence for a level camera: a floor or a
+/// certain person.
+bool SeemsLevel(const BodyFrame& tracked, const MountOptions& options);
 
 /// Decides when to check for a camera under the ceiling and when the result is certain: not in
 /// every frame, and never again after a person on a floor was tracked by the level models in
@@ -58,6 +67,25 @@ class MountFinder {
   double checked_s_ = -std::numeric_limits<double>::infinity();
   int checks_ = 0, above_checks_ = 0;
   int level_checks_ = 0;  // checks with a person on a level floor
+};
+
+/// Reconsiders a camera that was decided to be under the ceiling: one image without a floor, such
+/// as somebody near a camera on a table, may look so, and all after it would be lost. Both kinds of
+/// models track a frame a second until they agree in several.
+class MountRevision {
+ public:
+  explicit MountRevision(double decided_s) : checked_s_(decided_s) {}
+  /// Whether the frame of this time is to be tracked by the level models, too.
+  bool IsDue(double time_s);
+  /// Adds what the level models, without earlier frames, and those for the ceiling found in a
+  /// frame. Returns kFromAbove or kLevel if that is certain now, else kUnknown.
+  MountFinder::View Add(const BodyFrame& level, const BodyFrame& from_above);
+
+ private:
+  MountOptions options_;
+  double checked_s_;
+  MountFinder::View seen_ = MountFinder::View::kUnknown;  // by the last checks that showed a person
+  int agreeing_ = 0;                                      // consecutive ones
 };
 
 /// Whether a frame shows, seen from above, a floor that fills much of it and a candidate with a

@@ -90,13 +90,6 @@ void CheckFrame(const depth::DepthFrame& frame) {
   }
 }
 
-// The highest person score, [0, 1]; 0 without bodies.
-double HighestScore(const BodyFrame& tracked) {
-  double highest = 0.0;
-  for (const Body& body : tracked.bodies) highest = std::max(highest, body.person_score);
-  return highest;
-}
-
 // Whether a frame that was tracked with the level models is from a camera under the ceiling: a
 // floor, a head high above it, and a confident person score of the ceiling forest. A high level
 // score alone is no evidence, because half of the real ceiling frames have one.
@@ -119,9 +112,8 @@ bool Tracker::Impl::ConfirmCeilingView(const depth::DepthFrame& frame, const Bod
   if (!ceiling_forest) ceiling_forest = LoadCeilingForest(models);
   const auto above_targets = people::FindJointTargets(*ceiling_forest, models.ceiling_file);
   const double score = ScorePeople(frame, {*ceiling_forest, above_targets}, from_above).score;
-  const bool seems_level = tracked.floor || HighestScore(tracked) >= mount.level_person;
-  const bool is_sure = score >= (seems_level ? mount.sure_despite_level : mount.sure);
-  return mount_finder.Confirm(is_sure ? View::kFromAbove : View::kLevel);
+  const double sure = SeemsLevel(tracked, mount) ? mount.sure_despite_level : mount.sure;
+  return mount_finder.Confirm(score >= sure ? View::kFromAbove : View::kLevel);
 }
 
 void Tracker::Impl::FindUpright(const depth::DepthFrame& frame) {

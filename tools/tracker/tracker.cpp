@@ -164,9 +164,31 @@ BodyFrame Tracker::TrackFilled(const depth::DepthFrame& frame) {
 // Tracks in the camera's own space; switches to the ceiling models once the frame shows that view.
 BodyFrame Tracker::TrackAsMounted(const depth::DepthFrame& frame) {
   BodyFrame result = impl_->TrackTurned(frame);
+  if (revision_ && revision_->IsDue(frame.time_s)) {
+    return ReconsiderMount(frame, std::move(result));
+  }
   if (!impl_->ShowsCeilingView(frame, result)) return result;
   SwitchToCeiling();
+  revision_ = std::make_unique<MountRevision>(frame.time_s);
   return impl_->TrackTurned(frame);
+}
+
+// Returns what the models of the mount that is decided on now found in the frame.
+BodyFrame Tracker::ReconsiderMount(const depth::DepthFrame& frame, BodyFrame from_above) {
+  level_->CopySettings(*impl_);
+  level_->DeleteTracks();
+  BodyFrame level = level_->TrackTurned(frame);
+  switch (revision_->Add(level, from_above)) {
+    case MountFinder::View::kUnknown:
+      return from_above;
+    case MountFinder::View::kFromAbove:
+      revision_.reset();
+      return from_above;
+    case MountFinder::View::kLevel:
+      SwitchToLevel();
+      return level;
+  }
+  return from_above;
 }
 
 // Replaces all state except the application's settings and the frames held back by the lag.
@@ -178,6 +200,15 @@ void Tracker::SwitchToCeiling() {
   under_ceiling->lagged = std::exchange(impl_->lagged, impl_->NothingLagged());
   under_ceiling->CopySettings(*impl_);
   level_ = std::exchange(impl_, std::move(under_ceiling));
+}
+
+// Keeps what SwitchToCeiling keeps.
+void Tracker::SwitchToLevel() {
+  level_->lagged = std::exchange(impl_->lagged, impl_->NothingLagged());
+  level_->CopySettings(*impl_);
+  impl_ = std::move(level_);
+  revision_.reset();
+  if (impl_->scene) impl_->scene->Reset();
 }
 
 Mount Tracker::mount() const { return impl_->IsUnderCeiling() ? Mount::kCeiling : Mount::kLevel; }
@@ -255,6 +286,7 @@ void Tracker::Reset() {
     level_->CopySettings(*impl_);
     impl_ = std::move(level_);
   }
+  revision_.reset();
   impl_->mount_finder = {};
   impl_->upright = {};
   impl_->lagged = impl_->NothingLagged();

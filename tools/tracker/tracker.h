@@ -30,6 +30,8 @@ class FrameSource;
 /// used by one thread at a time.
 namespace ossa::tracker {
 
+class MountRevision;
+
 // Constants: of the Kinect SDK (six people); seed and threads by convention.
 
 /// The SDK's FrameEdges: which image borders cut the body off. Combined by |.
@@ -234,7 +236,8 @@ class Tracker {
   /// The current clockwise rotation of frames, in quarter turns.
   int quarter_turns() const;
 
-  /// The current mount, level or under the ceiling.
+  /// The current mount, level or under the ceiling. Mount::kAuto may take a wrong decision for the
+  /// ceiling back within seconds.
   Mount mount() const;
 
   /// Track only these users fully, the others by position (the SDK's AppChoosesSkeletons).
@@ -257,12 +260,15 @@ class Tracker {
  private:
   BodyFrame TrackFilled(const depth::DepthFrame& frame);
   BodyFrame TrackAsMounted(const depth::DepthFrame& frame);
+  BodyFrame ReconsiderMount(const depth::DepthFrame& frame, BodyFrame from_above);
   void SwitchToCeiling();
+  void SwitchToLevel();
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
   std::unique_ptr<Impl>
       level_;  // while impl_ is the tracker for the ceiling: the one for a level camera
+  std::unique_ptr<MountRevision> revision_;  // while the decision for the ceiling is reconsidered
   FrameTimeCheck times_;
 };
 

@@ -431,5 +431,73 @@ TEST(Mount, IsDecidedByTheFirstCheckOrByThreeInARow) {
   EXPECT_TRUE(later.Confirm(View::kFromAbove));
 }
 
+// What a mount's models found in a frame: a body with this person score, or nobody.
+BodyFrame Found(double person_score, bool on_a_floor = false) {
+  BodyFrame found;
+  if (on_a_floor) found.floor = Eigen::Vector4d(0, 1, 0, 1);
+  if (person_score > 0.0) found.bodies.resize(1);
+  for (Body& body : found.bodies) body.person_score = person_score;
+  return found;
+}
+
+TEST(MountRevision, IsSettledByThreeFramesThatAgree) {
+  using View = MountFinder::View;
+  const BodyFrame nobody = Found(0.0);
+  MountRevision above(0.0);
+  EXPECT_EQ(above.Add(nobody, Found(0.8)), View::kUnknown);
+  EXPECT_EQ(above.Add(nobody, nobody), View::kUnknown);
+  EXPECT_EQ(above.Add(nobody, Found(0.8)), View::kUnknown);
+  EXPECT_EQ(above.Add(nobody, Found(0.8)), View::kFromAbove);
+  MountRevision level(0.0);
+  EXPECT_EQ(level.Add(Found(0.7, true), nobody), View::kUnknown);
+  EXPECT_EQ(level.Add(Found(0.99), Found(0.8)), View::kUnknown);
+  EXPECT_EQ(level.Add(Found(0.99), Found(0.99)), View::kUnknown);
+  EXPECT_EQ(level.Add(Found(0.99), Found(0.8)), View::kUnknown);
+  EXPECT_EQ(level.Add(Found(0.7, true), nobody), View::kUnknown);
+  EXPECT_EQ(level.Add(Found(0.99), nobody), View::kLevel);
+}
+
+// From the ceiling the level models are often confident of a person, too, but not where its own
+// models find nobody.
+TEST(MountRevision, ConfidentPersonWithoutAFloorIsEvidenceIfTheCeilingsModelsFindNobody) {
+  using View = MountFinder::View;
+  MountRevision revision(0.0);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(revision.Add(Found(0.95), Found(0.6)), View::kUnknown);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(revision.Add(Found(0.95), Found(0.0)), View::kUnknown);
+  EXPECT_EQ(revision.Add(Found(0.95), Found(0.0)), View::kLevel);
+}
+
+TEST(MountRevision, IsDueOnceASecondAfterTheDecision) {
+  MountRevision revision(2.0);
+  EXPECT_FALSE(revision.IsDue(2.5));
+  EXPECT_TRUE(revision.IsDue(3.0));
+  EXPECT_FALSE(revision.IsDue(3.9));
+  EXPECT_TRUE(revision.IsDue(1.0));  // the source started again
+}
+
+// One image from the ceiling, then a person before a level camera on a floor.
+TEST(Mount, WrongDecisionForTheCeilingIsTakenBack) {
+  OSSA_NEEDS_CEILING();
+  TrackerOptions options;
+  options.lag = 1;
+  Tracker tracker(options);
+  depth::DepthFrame frame = CeilingClip().front().depth;
+  ASSERT_FALSE(tracker.TrackWithLag(frame));
+  ASSERT_EQ(tracker.mount(), Mount::kCeiling);
+  frame.depth_mm = RenderFrames({tools::View::kFront, tools::Background::kRoom, 2, true}, 10, 1)
+                       .front()
+                       .depth.depth_mm;
+  std::vector<int64_t> told;
+  for (frame.index = 1; frame.index < 5; ++frame.index) {
+    frame.time_s = 1.1 * static_cast<double>(frame.index);
+    if (const auto late = tracker.TrackWithLag(frame)) told.push_back(late->index);
+    EXPECT_EQ(tracker.mount(), frame.index < 3 ? Mount::kCeiling : Mount::kLevel) << frame.index;
+  }
+  const auto last = tracker.DrainLag();
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->bodies.size(), 1U);
+  EXPECT_EQ(told, (std::vector<int64_t>{0, 1, 2, 3}));
+}
+
 }  // namespace
 }  // namespace ossa::tracker
