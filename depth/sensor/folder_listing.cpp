@@ -10,10 +10,8 @@
 
 #include "depth/base/error.h"
 #include "depth/base/lower_case.h"
-#include "depth/sensor/depth_list.h"
 #include "depth/sensor/frame_names.h"
 #include "depth/sensor/source_internal.h"
-#include "depth/sensor/stray_scanner.h"
 
 namespace ossa::depth {
 namespace {
@@ -145,17 +143,6 @@ ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
       ->first;
 }
 
-// Notes the assumed unit of the times in `what`.
-void NoteUnit(const std::string& what, double unit_s, const SourceOptions& options) {
-  if (unit_s == 1.0 || !options.note) return;
-  const char* unit = unit_s == 1e-3   ? "milliseconds"
-                     : unit_s == 1e-6 ? "microseconds"
-                                      : "nanoseconds";
-  options.note(NoteKind::kInfo, what + " are read as " + unit +
-                                    ", because their steps are too long for seconds: --fps sets "
-                                    "the rate");
-}
-
 void PutInOrderOfTime(std::vector<ListedFrame>& frames) {
   std::stable_sort(frames.begin(), frames.end(),
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
@@ -180,98 +167,6 @@ std::vector<ListedFrame> FramesByName(const fs::path& folder, const std::vector<
   }
   if (are_times) PutInOrderOfTime(frames);
   return frames;
-}
-
-// The images listed in a depth.txt.
-struct FrameList {
-  fs::path file;
-  std::vector<ListedFrame> frames;
-  std::string first;  // line and name of the first bad one
-  std::vector<int> bad_lines;
-  double unit_s = 1.0;  // unit of its times
-
-  bool NamesAFile() const {
-    std::error_code none;
-    return std::any_of(frames.begin(), frames.end(),
-                       [&](const auto& frame) { return fs::is_regular_file(frame.path, none); });
-  }
-};
-
-fs::path FileOf(const fs::path& place, const DepthList::Entry& entry) {
-  std::error_code none;
-  const fs::path whole = (place / entry.rest).lexically_normal();
-  const bool has_blanks = entry.rest != entry.file && fs::is_regular_file(whole, none);
-  return has_blanks ? whole : (place / entry.file).lexically_normal();
-}
-
-// The frames of a list in `place`, of images anywhere or only of those in the folder `only`.
-FrameList MakeFrameList(DepthList list, const fs::path& place,
-                        const std::optional<fs::path>& only) {
-  FrameList found{place / "depth.txt", {}, {}, std::move(list.bad_lines), list.unit_s};
-  for (const DepthList::Entry& entry : list.entries) {
-    const fs::path path = FileOf(place, entry);
-    if (only && path.parent_path() != *only) continue;
-    if (found.frames.empty()) {
-      found.first = "line " + std::to_string(entry.line) + ": '" + entry.file + "'";
-    }
-    found.frames.push_back({path, static_cast<int64_t>(found.frames.size()), entry.time_s});
-  }
-  const double first_s = found.frames.empty() ? 0.0 : found.frames.front().time_s;
-  for (ListedFrame& frame : found.frames) frame.time_s -= first_s;
-  return found;
-}
-
-void NoteBadLines(const FrameList& list, const SourceOptions& options) {
-  if (list.bad_lines.empty() || !options.note) return;
-  options.note(NoteKind::kWarning, list.file.string() + ": line " +
-                                       std::to_string(list.bad_lines.front()) +
-                                       ": expected seconds and a file's name; lines ignored: " +
-                                       std::to_string(list.bad_lines.size()));
-}
-
-// Frames by Stray Scanner's odometry.csv above the folder of so many images; none with a rate of
-// the user's, which needs no times.
-std::vector<ListedFrame> FramesOfScanner(const fs::path& folder, size_t images,
-                                         const SourceOptions& options) {
-  if (folder.filename() != "depth" || options.fps) return {};
-  const fs::path recording = folder.parent_path();
-  auto frames = MakeFrameList(ReadScannerTimes(recording), recording, folder).frames;
-  if (!frames.empty() && frames.size() < images && options.note) {
-    options.note(NoteKind::kWarning, (recording / "odometry.csv").string() +
-                                         ": expected the times of " + std::to_string(images) +
-                                         " depth images, found " + std::to_string(frames.size()) +
-                                         ": the others are left out (--fps reads all)");
-  }
-  return frames;
-}
-
-// Frames by a depth.txt beside the images or, as in TUM's data sets, above their folder. A list
-// that names no existing file is another program's, if the folder has images.
-std::vector<ListedFrame> FramesByList(const fs::path& folder, size_t images,
-                                      const SourceOptions& options) {
-  const fs::path here = fs::absolute(folder).lexically_normal();
-  const fs::path plain = here.has_filename() ? here : here.parent_path();
-  for (const bool above : {false, true}) {
-    FrameList list =
-        above ? MakeFrameList(ReadDepthList(plain.parent_path()), plain.parent_path(), plain)
-              : MakeFrameList(ReadDepthList(folder), folder, std::nullopt);
-    if (list.frames.empty()) continue;
-    if (list.NamesAFile()) {
-      NoteBadLines(list, options);
-      NoteUnit(list.file.string() + ": its times", list.unit_s, options);
-      return std::move(list.frames);
-    }
-    const std::string what =
-        list.file.string() + ": expected seconds and files that are there, found " + list.first;
-    if (images == 0) throw InputError(what);
-    // With a list of images the frames lose their times.
-    const bool has_times = IsPngName(list.frames.front().path);
-    if (options.note) {
-      options.note(has_times ? NoteKind::kWarning : NoteKind::kInfo,
-                   what + " and the like: ignored");
-    }
-  }
-  return FramesOfScanner(plain, images, options);
 }
 
 bool HasDepthImage(const fs::path& folder) {

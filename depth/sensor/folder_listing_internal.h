@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "depth/image/depth_png.h"
@@ -24,6 +25,15 @@ struct FolderListing {
 /// ReadTimesFromNames). Files that are not depth images are skipped with a note. Throws InputError
 /// if there are no frames.
 FolderListing ListDepthFolder(const std::filesystem::path& folder, const SourceOptions& options);
+
+/// The frames of a folder of `images` depth images by a depth.txt beside them or, as in TUM's data
+/// sets, above their folder, or by a Stray Scanner's odometry.csv; empty without one. A list that
+/// names no existing file is another program's, if the folder has images; else throws InputError.
+std::vector<ListedFrame> FramesByList(const std::filesystem::path& folder, size_t images,
+                                      const SourceOptions& options);
+
+/// Notes the unit of `what`'s times if it was guessed, in seconds.
+void NoteUnit(const std::string& what, double unit_s, const SourceOptions& options);
 
 /// Whether a file is a PNG by its extension, in any case, and not a macOS resource file.
 bool IsPngName(const std::filesystem::path& path);

@@ -37,15 +37,17 @@ Camera ReadScannerCamera(const fs::path& file, ImageSize size) {
   return CameraForSize(choice, size.width, size.height);
 }
 
-DepthList ReadScannerTimes(const fs::path& recording) {
+std::optional<DepthList> ReadScannerTimes(const fs::path& recording) {
   constexpr std::uintmax_t kLargest = std::uintmax_t{256} << 20;  // bytes: a day of frames
   const fs::path path = recording / "odometry.csv";
   std::error_code none;
-  if (!fs::is_regular_file(path, none) || fs::file_size(path, none) > kLargest) return {};
+  if (!fs::is_regular_file(path, none) || fs::file_size(path, none) > kLargest) {
+    return std::nullopt;
+  }
   std::ifstream file = OpenFile(path);
   if (!file) throw InputError(path.string() + ": cannot be read: expected a list of frames");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
-  if (!text.starts_with("timestamp, frame")) return {};
+  if (!text.starts_with("timestamp, frame")) return std::nullopt;
   DepthList list =
       ParseDepthList(std::string_view(text).substr(std::min(text.size(), text.find('\n'))));
   for (DepthList::Entry& entry : list.entries) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 
 #include "depth/image/depth_png.h"
 #include "depth/sensor/depth_list.h"
@@ -17,8 +18,8 @@ inline constexpr const char* kScannerCameraFile = "camera_matrix.csv";
 Camera ReadScannerCamera(const std::filesystem::path& file, ImageSize size);
 
 /// The times of the depth images from a recording's odometry.csv, which may name more than there
-/// are: files relative to the recording; without entries if there is none, or it is something else.
-DepthList ReadScannerTimes(const std::filesystem::path& recording);
+/// are: files relative to the recording; nothing if there is no such table.
+std::optional<DepthList> ReadScannerTimes(const std::filesystem::path& recording);
 
 /// Whether a depth image of this size has a confidence image, of confidences 0, 1 and 2.
 bool HasConfidence(const std::filesystem::path& depth_png, ImageSize size);
