@@ -144,6 +144,16 @@ bool IsAmong(const std::vector<int>& ids, int id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
+// Whether a track is on the floor, in front of the room as it was, and moved not too long ago. With
+// a carried sensor nothing is known of the room.
+bool IsLying(const Scene& scene, const Candidate& candidate, double time_s,
+             const AssociationOptions& options, const Track& track) {
+  return scene.floor && scene.background.certain_share > kMajority &&
+         candidate.foreground_share > options.lying_foreground_share &&
+         time_s - track.moved_s < options.lying_s &&
+         scene.floor->HeightOf(track.mean_m.cast<double>()) < options.lying_below_m;
+}
+
 // Updates tracks that went out of view. `ids`: of the people in this frame.
 void MarkLostTracks(const Scene& scene, const std::vector<int>& person_of,
                     const std::vector<int>& ids, double time_s, const AssociationOptions& options,
@@ -244,7 +254,10 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
       tracks.push_back(std::move(track));
     }
     Track& track = tracks[static_cast<size_t>(track_of[p])];
+    const bool was_certain = time_s < track.certain_until_s;
     UpdateTrack(scene.grid, people[p], person_of, static_cast<int>(p), time_s, options, track);
+    if (was_certain && IsLying(scene, people[p].candidate, time_s, options, track))
+      track.certain_until_s = time_s + options.certain_s;
     ids.push_back(track.id);
   }
   DeleteAbsorbed(people, ids, tracks);
@@ -271,6 +284,25 @@ std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks,
     summaries.push_back({track.id, status, track.last_seen_s, track.age});
   }
   return summaries;
+}
+
+std::vector<uint8_t> MarkPeople(const Scene& scene, const std::vector<Detection>& people,
+                                const std::vector<Track>& tracks, double time_s) {
+  const PointGrid& grid = scene.grid;
+  std::vector<uint8_t> marked(static_cast<size_t>(grid.cells()), 0);
+  for (const Detection& person : people) {
+    for (const int cell : person.candidate.region.cells) marked[static_cast<size_t>(cell)] = 1;
+  }
+  if (scene.background.certain_share <= kMajority) return marked;
+  for (const Track& track : tracks) {
+    if (time_s >= track.certain_until_s || track.last_seen_s == time_s) continue;
+    for (size_t i = 0; i < track.cells.size(); ++i) {
+      const float off_m = std::abs(grid.z(track.cells[i]) - track.z_m[i]);
+      if (off_m < depth::DepthTolerance(track.z_m[i]))
+        marked[static_cast<size_t>(track.cells[i])] = 1;
+    }
+  }
+  return marked;
 }
 
 }  // namespace ossa::people

@@ -30,4 +30,11 @@ void ReleaseId(int id, TrackList& list);
 std::vector<TrackSummary> SummarizeTracks(const std::vector<Track>& tracks,
                                           const std::vector<int>& ids);
 
+/// The cells of a frame that are not to be learned as the room: those of its people, and those of a
+/// person for sure who was seen a moment ago where nothing has changed since. Somebody who lies on
+/// the floor is missed in a frame now and then, and would be the room before they are found again.
+/// One entry per cell of the grid, 1 = yes. With a carried sensor, only those of its people.
+std::vector<uint8_t> MarkPeople(const Scene& scene, const std::vector<Detection>& people,
+                                const std::vector<Track>& tracks, double time_s);
+
 }  // namespace ossa::people

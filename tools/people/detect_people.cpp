@@ -19,14 +19,6 @@ void DeleteOldTracks(const Scene& scene, double time_s, const ReidentifyOptions&
   });
 }
 
-std::vector<uint8_t> MarkCells(const PointGrid& grid, const std::vector<Detection>& people) {
-  std::vector<uint8_t> marked(static_cast<size_t>(grid.cells()), 0);
-  for (const Detection& person : people) {
-    for (const int cell : person.candidate.region.cells) marked[static_cast<size_t>(cell)] = 1;
-  }
-  return marked;
-}
-
 void MarkUserPixels(int id, const Candidate& candidate, depth::Image<uint8_t>& users) {
   for (const int32_t pixel : candidate.pixels)
     users.data[static_cast<size_t>(pixel)] = static_cast<uint8_t>(id);
@@ -144,8 +136,8 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
     depth::ForgetBackground(scene.grid, person.candidate.region.cells, state.scene.background,
                             options.scene.background);
   }
-  depth::LearnBackground(scene.grid, MarkCells(scene.grid, people), state.scene.background,
-                         options.scene.background);
+  depth::LearnBackground(scene.grid, MarkPeople(scene, people, tracks, frame.time_s),
+                         state.scene.background, options.scene.background);
   AddPeople(frame.camera, ids, std::move(people), result);
   result.decisions.tracks = SummarizeTracks(tracks, ids);
   DistributeTime(watch.milliseconds(), classification_ms, result);

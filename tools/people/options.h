@@ -351,6 +351,13 @@ struct AssociationOptions {
   int certain_age = 12;
   double certain_score = 0.75;
   double certain_s = 30.0;
+  // Somebody on the floor stays one for this time after their last movement, because who fell may
+  // lie there for long: by hand, a person moves now and then, a bag that they left does not. The
+  // share of foreground in their surface and their height are as in InitiationOptions and
+  // PredictionOptions.
+  double lying_s = 600.0;
+  double lying_foreground_share = 0.2;
+  double lying_below_m = 0.5;
   MotionOptions motion;
   ReidentifyOptions reidentify;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/depth/scene/shots.h"
+#include "tools/people/associate_tracks.h"
 #include "tools/people/detect_people.h"
 #include "tools/people/propose_candidates.h"
 #include "tools/people/track_prediction.h"
@@ -55,16 +56,16 @@ inline std::vector<int> Confirm(const Proposed& proposed, const std::vector<Cand
                                 const std::vector<Keypoints>& keypoints_m = {},
                                 double score = 0.0) {
   std::vector<Detection> detections(people.size());
-  std::vector<uint8_t> claimed(static_cast<size_t>(proposed.scene.grid.cells()), 0);
   for (size_t i = 0; i < people.size(); ++i) {
     detections[i].candidate = people[i];
     detections[i].score = score;
     if (!keypoints_m.empty()) detections[i].keypoints_m = keypoints_m[i];
-    for (const int cell : people[i].region.cells) claimed[static_cast<size_t>(cell)] = 1;
   }
   const auto ids = AssociateTracks(proposed.scene, FindRivals(proposed.candidates), detections,
                                    time_s, state.tracks);
-  depth::LearnBackground(proposed.scene.grid, claimed, state.scene.background);
+  depth::LearnBackground(proposed.scene.grid,
+                         MarkPeople(proposed.scene, detections, state.tracks.tracks, time_s),
+                         state.scene.background);
   return ids;
 }
 
