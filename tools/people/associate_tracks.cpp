@@ -149,8 +149,7 @@ bool IsAmong(const std::vector<int>& ids, int id) {
 bool IsLying(const Scene& scene, const Candidate& candidate, double time_s,
              const AssociationOptions& options, const Track& track) {
   return scene.floor && scene.background.certain_share > kMajority &&
-         candidate.foreground_share > options.lying_foreground_share &&
-         time_s - track.moved_s < options.lying_s &&
+         StandsOut(candidate, options.rest) && time_s - track.moved_s < options.lying_s &&
          scene.floor->HeightOf(track.mean_m.cast<double>()) < options.lying_below_m;
 }
 
@@ -256,8 +255,10 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
     Track& track = tracks[static_cast<size_t>(track_of[p])];
     const bool was_certain = time_s < track.certain_until_s;
     UpdateTrack(scene.grid, people[p], person_of, static_cast<int>(p), time_s, options, track);
-    if (was_certain && IsLying(scene, people[p].candidate, time_s, options, track))
+    if (was_certain && IsLying(scene, people[p].candidate, time_s, options, track)) {
+      track.lay_s = time_s;
       track.certain_until_s = time_s + options.certain_s;
+    }
     ids.push_back(track.id);
   }
   DeleteAbsorbed(people, ids, tracks);

@@ -40,6 +40,12 @@ inline bool IsForeground(const Candidate& candidate) {
   return candidate.foreground_share > kMajority;
 }
 
+/// Whether enough of it is not the room as it was.
+inline bool StandsOut(const Candidate& candidate, const RestOptions& options) {
+  return candidate.foreground_share > options.foreground_share ||
+         candidate.background_share < options.background_share;
+}
+
 /// Whether a candidate may be a lost track that comes into view again, rather than a part of
 /// `other` (IsRatherOf).
 bool MayBeReturning(const PointGrid& grid, const Candidate& candidate, const Track& other,

@@ -74,6 +74,7 @@ TrackPrior MakeTrackPrior(const Candidate& candidate, const std::vector<Track>& 
   prior.moved = track.moved;
   prior.moving = time_s - track.moved_s < options.moving_s;
   prior.certain = time_s < track.certain_until_s;
+  prior.lay_s = track.lay_s;
   prior.full_m2 = track.full_m2;
   // The heading in the previous frame is a prior of the heading now.
   const bool recent = !track.facing.empty() && time_s - track.facing_s <= options.facing_s;

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct TrackPrior {
   bool moved = false;           // since it was first seen
   bool moving = false;          // recently
   bool certain = false;         // a person for sure not long ago
-  float full_m2 = 0;            // largest recent visible surface
+  double lay_s = -std::numeric_limits<double>::infinity();  // as Track::lay_s
+  float full_m2 = 0;                                        // largest recent visible surface
 };
 TrackPrior MakeTrackPrior(const Candidate& candidate, const std::vector<Track>& tracks,
                           double time_s, const TrackPriorOptions& options);

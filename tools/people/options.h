@@ -120,6 +120,15 @@ struct PlanarOccluderOptions {
   double behind_m = 0.1;       // anthropometry: more than from a chest back to its chin and neck
 };
 
+/// Who was a person for sure (AssociationOptions::certain_s) stays one, whatever the score, while
+/// more than this share of their surface is foreground, or less than this share is the known room:
+/// somebody on the floor or in a sofa is hardly in front of it.
+struct RestOptions {
+  double foreground_share = 0.2, background_share = 0.3;
+  // Seconds for which somebody on the floor counts as that who was it: noise hides them at times.
+  double lay_s = 1.0;
+};
+
 /// How cells and regions are assigned to the tracks of earlier frames.
 struct PredictionOptions {
   double max_step_s = 0.1;        // longest prediction of a track's cells
@@ -133,6 +142,7 @@ struct PredictionOptions {
   // head or feet, and a step.
   double lying_below_m = 0.5;
   float lying_reach_m = 1.2F;
+  RestOptions rest;
   double return_score = 0.6;      // last mean score of a track, [0, 1], that may return
   float return_gate_m = 0.6F;     // a step: from the predicted place of a lost track,
   float return_speed_m_s = 0.7F;  // ... growing with time
@@ -267,9 +277,7 @@ struct InitiationOptions {
   // Isolated foreground that walked this far since its first observation: only people walk.
   double walked_m = 0.5;       // anthropometry: less than a step
   double walked_score = 0.02;  // score
-  // Who was a person for sure (AssociationOptions::certain_s) stays one, whatever the score, while
-  // more than this share of their surface is foreground, or less than this share is the known room.
-  double rest_foreground_share = 0.2, rest_background_share = 0.3;
+  RestOptions rest;
   // A track this young: a chance detection of another object has a low mean.
   double early_track_score = 0.4;  // score
   int early_age = 12;              // detections
@@ -353,11 +361,10 @@ struct AssociationOptions {
   double certain_s = 30.0;
   // Somebody on the floor stays one for this time after their last movement, because who fell may
   // lie there for long: by hand, a person moves now and then, a bag that they left does not. The
-  // share of foreground in their surface and their height are as in InitiationOptions and
-  // PredictionOptions.
+  // height is as in PredictionOptions.
   double lying_s = 600.0;
-  double lying_foreground_share = 0.2;
   double lying_below_m = 0.5;
+  RestOptions rest;
   MotionOptions motion;
   ReidentifyOptions reidentify;
 };

@@ -176,18 +176,22 @@ void SplitIntoCandidates(const DepthFrame& frame, const Scene& scene, const Cell
 
 // Each track continues in the candidate with the largest overlap, if that is a sufficient share of
 // either, so that an adjacent object does not become the person. Nor does furniture that the person
-// touched when they left the view: it is part of the known background, and they are not.
+// touched when they left the view: it is part of the known background, and they are not. Somebody
+// on the floor is hardly in front of it.
 void ContinueTracks(const CellMasks& masks, const std::vector<Track>& tracks,
-                    const std::vector<uint8_t>& known_background, const PredictionOptions& options,
-                    std::vector<Candidate>& candidates) {
+                    const std::vector<uint8_t>& known_background, double time_s,
+                    const PredictionOptions& options, std::vector<Candidate>& candidates) {
   std::vector<size_t> largest_overlap(tracks.size(), 0);
   std::vector<int> heir_candidate(tracks.size(), -1);
   for (size_t c = 0; c < candidates.size(); ++c) {
     const Region& region = candidates[c].region;
     const auto overlap = CollectOverlaps(region, masks.owner, tracks.size());
     const bool is_of_room = MeasureShare(region, known_background) > kMajority;
+    const bool stands_out = StandsOut(candidates[c], options.rest);
     for (size_t t = 0; t < tracks.size(); ++t) {
-      if (is_of_room && tracks[t].entered) continue;
+      const bool lies = time_s - tracks[t].lay_s < options.rest.lay_s;
+      const bool rests = (lies || stands_out) && time_s < tracks[t].certain_until_s;
+      if (is_of_room && tracks[t].entered && !rests) continue;
       const size_t common = overlap[t].size();
       const size_t least =
           std::min(region.cells.size(), tracks[t].cells.size()) / options.overlap_fraction;
@@ -280,7 +284,8 @@ Candidates ProposeCandidates(const DepthFrame& frame, const Scene& scene,
                         result);
   }
   std::vector<Candidate>& candidates = result.candidates;
-  ContinueTracks(masks, tracks, scene.background.known, options.prediction, candidates);
+  ContinueTracks(masks, tracks, scene.background.known, frame.time_s, options.prediction,
+                 candidates);
   MarkReturningCandidates(tracks, frame.time_s, reidentify.forget_s, options.prediction,
                           candidates);
   MarkPossibleParts(scene.grid, tracks, frame.time_s, options, candidates);

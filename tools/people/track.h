@@ -46,6 +46,8 @@ struct Track {
   double facing_s = -std::numeric_limits<double>::infinity();  // time of `facing`
   // Until this time it counts as a person for sure, whatever it scores.
   double certain_until_s = -std::numeric_limits<double>::infinity();
+  // Last time that it was on the floor for sure, in front of the room.
+  double lay_s = -std::numeric_limits<double>::infinity();
 };
 
 /// A track's predicted centroid: with constant velocity for at most `max_prediction_s`.

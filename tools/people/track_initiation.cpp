@@ -90,13 +90,6 @@ double RequireOfStillTrack(const Detection& detection, const InitiationOptions& 
   return IsVerifiedByPose(detection) ? options.weak_by_pose_score : options.still_track_score;
 }
 
-// Whether enough of a candidate is not the room as it was. Somebody on the floor or in a sofa is
-// hardly in front of it.
-bool IsOutsideRoom(const Candidate& candidate, const InitiationOptions& options) {
-  return candidate.foreground_share > options.rest_foreground_share ||
-         candidate.background_share < options.rest_background_share;
-}
-
 // A track continues by its mean score. The threshold is higher for young tracks, which may be
 // chance detections of furniture, and for those that never moved; lower for foreground.
 Decision DecideTracked(const Detection& detection, double time_s, const InitiationOptions& options,
@@ -113,7 +106,8 @@ Decision DecideTracked(const Detection& detection, double time_s, const Initiati
                         : early ? options.early_track_score
                                 : options.tracked_score;
   if (detection.score >= needed) return DescribeDetection(detection, Rule::kTrackContinued, needed);
-  if (prior.certain && IsOutsideRoom(candidate, options))
+  const bool lies = time_s - prior.lay_s < options.rest.lay_s;
+  if (prior.certain && (lies || StandsOut(candidate, options.rest)))
     return DescribeDetection(detection, Rule::kTrackRests, needed);
   if (still || early) {
     TentativeTrack track = StartTentative(detection, time_s);

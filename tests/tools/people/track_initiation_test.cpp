@@ -226,16 +226,19 @@ TEST_F(NewPerson, ForSureStaysWithoutAScoreUnlessOnlyTheRoomIsLeft) {
     bool certain;
     double foreground_share, background_share;
     bool stays;
+    double lay_s = 0.0;
   };
   std::vector<TentativeTrack> tentative;
   for (const Case& c : {Case{true, 0.0, 0.1, true}, Case{true, 0.3, 0.8, true},
-                        Case{true, 0.1, 0.8, false}, Case{false, 0.3, 0.1, false}}) {
+                        Case{true, 0.1, 0.8, false}, Case{false, 0.3, 0.1, false},
+                        Case{true, 0.1, 0.8, true, 0.5}, Case{false, 0.1, 0.8, false, 0.5}}) {
     Detection detection = Detect({0.001, 0, c.foreground_share});
     detection.age = 50;
     detection.candidate.background_share = c.background_share;
     detection.prior.moved = true;
     detection.prior.certain = c.certain;
-    EXPECT_EQ(DecidePerson(false, 1.0, options_, tentative, detection), c.stays)
+    detection.prior.lay_s = c.lay_s;
+    EXPECT_EQ(DecidePerson(false, 1.2, options_, tentative, detection), c.stays)
         << c.certain << c.foreground_share << c.background_share;
     EXPECT_EQ(detection.decision.rule, c.stays ? Rule::kTrackRests : Rule::kTrackLowScore);
   }
