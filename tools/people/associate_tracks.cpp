@@ -148,9 +148,12 @@ bool IsAmong(const std::vector<int>& ids, int id) {
 // a carried sensor nothing is known of the room.
 bool IsLying(const Scene& scene, const Candidate& candidate, double time_s,
              const AssociationOptions& options, const Track& track) {
-  return scene.floor && scene.background.certain_share > kMajority &&
-         StandsOut(candidate, options.rest) && time_s - track.moved_s < options.lying_s &&
-         scene.floor->HeightOf(track.mean_m.cast<double>()) < options.lying_below_m;
+  if (!scene.floor || scene.background.certain_share <= kMajority) return false;
+  const Region& region = candidate.region;
+  const Eigen::Vector3f top_m(region.mean_m.x(), region.high_m.y(), region.mean_m.z());
+  return StandsOut(candidate, options.rest) && time_s - track.moved_s < options.lying_s &&
+         scene.floor->HeightOf(track.mean_m.cast<double>()) < options.lying_below_m &&
+         scene.floor->HeightOf(top_m.cast<double>()) < options.lying_top_m;
 }
 
 // Updates tracks that went out of view. `ids`: of the people in this frame.

@@ -360,10 +360,11 @@ struct AssociationOptions {
   double certain_score = 0.75;
   double certain_s = 30.0;
   // Somebody on the floor stays one for this time after their last movement, because who fell may
-  // lie there for long: by hand, a person moves now and then, a bag that they left does not. The
-  // height is as in PredictionOptions.
+  // lie there for long: by hand, a person moves now and then, a bag that they left does not.
+  // Anthropometry: the middle as in PredictionOptions, and the top, of somebody on their elbows:
+  // the backs of chairs that they moved are higher.
   double lying_s = 600.0;
-  double lying_below_m = 0.5;
+  double lying_below_m = 0.5, lying_top_m = 0.75;
   RestOptions rest;
   MotionOptions motion;
   ReidentifyOptions reidentify;
