@@ -32,7 +32,7 @@ FolderListing ListDepthFolder(const std::filesystem::path& folder, const SourceO
 std::vector<ListedFrame> FramesByList(const std::filesystem::path& folder, size_t images,
                                       const SourceOptions& options);
 
-/// Notes the unit of `what`'s times if it was guessed, in seconds.
+/// Notes the unit, in seconds, of the times in `what` if it was guessed.
 void NoteUnit(const std::string& what, double unit_s, const SourceOptions& options);
 
 /// Whether a file is a PNG by its extension, in any case, and not a macOS resource file.

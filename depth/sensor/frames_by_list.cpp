@@ -83,7 +83,6 @@ std::vector<ListedFrame> FramesOfScanner(const fs::path& folder, size_t images,
 
 }  // namespace
 
-// Notes the assumed unit of the times in `what`.
 void NoteUnit(const std::string& what, double unit_s, const SourceOptions& options) {
   if (unit_s == 1.0 || !options.note) return;
   const char* unit = unit_s == 1e-3   ? "milliseconds"

@@ -222,6 +222,7 @@ std::vector<int> RewindTracks(double time_s, std::vector<Track>& tracks) {
     track.moved_s -= back_s;
     track.facing_s -= back_s;
     track.certain_until_s -= back_s;
+    track.lay_s -= back_s;
     track.last_seen_s = time_s;
     if (back_s >= recon::FrameSteps::kJitter_s) ids.push_back(track.id);
   }

@@ -41,6 +41,8 @@ PeopleOptions AdaptToFrameRate(PeopleOptions options, double step_s) {
   options.association.same_depth_m =
       std::max(options.association.same_depth_m, ComputeSameDepth_m(step, walked_m));
   options.association.keep_cells_s = std::max(options.association.keep_cells_s, two_s);
+  for (RestOptions* rest : {&initiation.rest, &prediction.rest})
+    rest->lay_s = std::max(rest->lay_s, two_s);
   return options;
 }
 

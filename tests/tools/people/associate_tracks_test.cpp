@@ -278,7 +278,7 @@ TEST_F(Identity, IsLostBehindThePersonAtWhoseSilhouetteItWasLastSeen) {
   for (const Track& track : tracks()) EXPECT_EQ(track.lost_behind, track.mean_m.z() > 3.1F);
 }
 
-// A person seen at 10 s and moved at 8 s, who is not visible in a frame at `time_s`.
+// A person seen at 10 s, who moved and lay there at 8 s, and is not visible in a frame at `time_s`.
 Track UnseenAt(double time_s) {
   const Proposed empty = EmptyScene();
   PeopleState state;
@@ -287,7 +287,7 @@ Track UnseenAt(double time_s) {
   track.age = 30;
   track.score = 0.9;
   track.last_seen_s = 10.0;
-  track.moved_s = 8.0;
+  track.moved_s = track.lay_s = 8.0;
   state.tracks.tracks.push_back(track);
   Confirm(empty, {}, time_s, state);
   return state.tracks.tracks.at(0);
@@ -298,6 +298,7 @@ TEST(AssociateTracks, BackwardsTimeDoesNotMakeTracksMoveAfterTheirLastSighting) 
   const Track track = UnseenAt(-500.0);
   EXPECT_EQ(track.last_seen_s, -500.0);
   EXPECT_EQ(track.moved_s, -502.0);
+  EXPECT_EQ(track.lay_s, -502.0);
 }
 
 TEST(AssociateTracks, LostTracksLoseTheirEvidenceWhenTheClockGoesBackByMoreThanJitter) {

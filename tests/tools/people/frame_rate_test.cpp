@@ -28,6 +28,14 @@ TEST(AdaptToFrameRate, ChangesNothingAt30Hz) {
   EXPECT_EQ(adapted.candidates.prediction.same_depth_m, usual.candidates.prediction.same_depth_m);
   EXPECT_EQ(adapted.association.keep_cells_s, usual.association.keep_cells_s);
   EXPECT_EQ(adapted.association.same_depth_m, usual.association.same_depth_m);
+  EXPECT_EQ(adapted.initiation.rest.lay_s, usual.initiation.rest.lay_s);
+}
+
+TEST(AdaptToFrameRate, SomebodyOnTheFloorMayBeHiddenInOneFrame) {
+  constexpr double kStep_s = 0.9;
+  const PeopleOptions slow = AdaptToFrameRate({}, kStep_s);
+  EXPECT_GT(slow.initiation.rest.lay_s, kStep_s);
+  EXPECT_EQ(slow.candidates.prediction.rest.lay_s, slow.initiation.rest.lay_s);
 }
 
 // Whoever stands still is accepted after three frames in a row; at 4 Hz they are 0.25 s apart.
