@@ -44,7 +44,7 @@ bool SeemsLevel(const BodyFrame& tracked, const MountOptions& options) {
 
 bool MountRevision::IsDue(double time_s) {
   const double since_s = time_s - checked_s_;
-  if (since_s >= 0 && since_s < options_.every_s) return false;
+  if (since_s >= 0 && since_s < every_s_) return false;
   checked_s_ = time_s;
   return true;
 }
@@ -61,6 +61,8 @@ MountFinder::View MountRevision::Add(const BodyFrame& level, const BodyFrame& fr
   } else if (seems_level && ShowsPerson(level)) {
     seen = View::kLevel;
   }
+  const bool nobody = level.bodies.empty() && from_above.bodies.empty();
+  every_s_ = nobody ? std::min(2.0 * every_s_, options_.seldom_s) : options_.every_s;
   if (seen == View::kUnknown) return seen;
   agreeing_ = seen == seen_ ? agreeing_ + 1 : 1;
   seen_ = seen;

@@ -11,8 +11,9 @@ namespace ossa::tracker {
 /// the dev stills of `ossa experiment real` and on rendered people, level and from above
 /// (tests/tools/tracker/mount_test.cpp).
 struct MountOptions {
-  double every_s = 1.0;  // between checks, > 0: one costs some milliseconds
-  int agreeing = 3;      // consecutive checks, > 0, as in UprightOptions
+  double every_s = 1.0;   // between checks, > 0: one costs some milliseconds
+  double seldom_s = 5.0;  // ... by both kinds of models while nobody is in view: these take longer
+  int agreeing = 3;       // consecutive checks, > 0, as in UprightOptions
   // Least score, [0, 1], and the same where the level models see a floor or a certain person. Real
   // stills from the ceiling have 0.80 and more, those with a certain level person 0.99. Of 880
   // rendered and real level images without a floor three have 0.94 and more, the others 0.63 and
@@ -84,6 +85,7 @@ class MountRevision {
  private:
   MountOptions options_;
   double checked_s_;
+  double every_s_ = options_.every_s;                     // grows while nobody is in view
   MountFinder::View seen_ = MountFinder::View::kUnknown;  // by the last checks that showed a person
   int agreeing_ = 0;                                      // consecutive ones
 };

@@ -475,6 +475,19 @@ TEST(MountRevision, IsDueOnceASecondAfterTheDecision) {
   EXPECT_TRUE(revision.IsDue(1.0));  // the source started again
 }
 
+TEST(MountRevision, IsDueLessOftenWhileNobodyIsInView) {
+  MountRevision revision(0.0);
+  double time_s = 0.0;
+  for (const double after_s : {1.0, 2.0, 4.0, 5.0, 5.0}) {
+    EXPECT_FALSE(revision.IsDue(time_s + after_s - 0.1));
+    EXPECT_TRUE(revision.IsDue(time_s += after_s));
+    revision.Add(Found(0.0), Found(0.0));
+  }
+  EXPECT_TRUE(revision.IsDue(time_s += 5.0));
+  revision.Add(Found(0.0), Found(0.8));
+  EXPECT_TRUE(revision.IsDue(time_s += 1.0));
+}
+
 // One image from the ceiling, then a person before a level camera on a floor.
 TEST(Mount, WrongDecisionForTheCeilingIsTakenBack) {
   OSSA_NEEDS_CEILING();
