@@ -202,10 +202,9 @@ void Tracker::SwitchToCeiling() {
   level_ = std::exchange(impl_, std::move(under_ceiling));
 }
 
-// Keeps what SwitchToCeiling keeps.
+// Keeps the frames held back by the lag; `level_` has the application's settings.
 void Tracker::SwitchToLevel() {
   level_->lagged = std::exchange(impl_->lagged, impl_->NothingLagged());
-  level_->CopySettings(*impl_);
   impl_ = std::move(level_);
   revision_.reset();
   if (impl_->scene) impl_->scene->Reset();
