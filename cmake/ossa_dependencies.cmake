@@ -30,6 +30,11 @@ include(ossa_rosbag)
 if(NOT ROSBAG_LIBRARIES)
   message(STATUS "Reading .bag is left out: librosbag-storage-dev is not installed")
 endif()
+pkg_check_modules(sqlite3 QUIET IMPORTED_TARGET sqlite3)  # bags of ROS 2
+pkg_check_modules(lz4 QUIET IMPORTED_TARGET liblz4)
+if(NOT sqlite3_FOUND OR NOT lz4_FOUND)
+  message(STATUS "Reading .db3 and .mcap is left out: libsqlite3-dev or liblz4-dev is not installed")
+endif()
 find_package(TinyGLTF QUIET CONFIG)  # skinned people in motion
 if(NOT TinyGLTF_FOUND)
   message(STATUS "--out FILE.glb is left out: libtinygltf-dev is not installed")

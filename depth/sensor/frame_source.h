@@ -28,8 +28,8 @@ struct ReadResult {
   int64_t dropped = 0;
 };
 
-/// A source of depth images: an OpenNI2 device, an .oni, .mkv or .bag file, a folder of PNGs or a
-/// single PNG, a data set.
+/// A source of depth images: an OpenNI2 device, a recording (.oni, .mkv, bags of ROS), a folder of
+/// PNGs or a single PNG, a data set.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -87,13 +87,14 @@ struct SourceOptions {
 };
 
 /// Whether the path is a file of depth images by its extension, in any case (.oni, .mkv, .bag,
-/// .png), or a folder of PNGs or a scan. Throws std::filesystem::filesystem_error for a folder that
-/// cannot be read.
+/// .db3, .mcap, .png), or a folder of PNGs, a ROS 2 bag or a scan. Throws
+/// std::filesystem::filesystem_error for a folder that cannot be read.
 bool IsRecording(const std::filesystem::path& path);
 
-/// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", "FILE.mkv", "FILE.bag", "FILE.bag#/topic", a
-/// folder of 16-bit PNGs, a scan or a DATASET; or one such PNG, a still (docs/sources.md). Throws
-/// InputError naming it and what was expected.
+/// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", "FILE.mkv", a bag of ROS (FILE.bag, FILE.db3,
+/// FILE.mcap, a folder of such files) or "BAG#/topic", a folder of 16-bit PNGs, a scan or a
+/// DATASET; or one such PNG, a still (docs/sources.md). Throws InputError naming it and what was
+/// expected.
 std::unique_ptr<FrameSource> OpenSource(const std::string& source,
                                         const SourceOptions& options = {});
 

@@ -10,6 +10,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/lower_case.h"
+#include "depth/sensor/bag_name_internal.h"
 #include "depth/sensor/folder_listing_internal.h"
 #include "depth/sensor/source_internal.h"
 
@@ -35,24 +36,6 @@ std::string SizeText(const Camera& camera) {
   return std::to_string(camera.width) + "x" + std::to_string(camera.height);
 }
 
-// FILE.bag or FILE.bag#/topic.
-struct BagName {
-  std::filesystem::path file;
-  std::string topic;
-  explicit BagName(const std::string& source) : file(source) {
-    const size_t mark = LowerCase(source).rfind(".bag#");
-    if (mark == std::string::npos) return;
-    file = source.substr(0, mark + 4);
-    topic = source.substr(mark + 5);
-  }
-};
-
-// NAME.bag, or the leftover of a killed recorder: NAME.bag.active.
-bool IsBagName(const std::filesystem::path& path) {
-  const std::string extension = LowerCaseExtension(path);
-  return LowerCaseExtension(extension == ".active" ? path.stem() : path) == ".bag";
-}
-
 }  // namespace
 
 const char* DescribeConversion(const std::filesystem::path& file) {
@@ -62,7 +45,7 @@ const char* DescribeConversion(const std::filesystem::path& file) {
   constexpr const char* kVideo =
       "a video, which holds colours and no distances; one of 16-bit greys becomes a folder to read "
       "by 'ffmpeg -i FILE -pix_fmt gray16be FOLDER/%06d.png'";
-  constexpr const char* kRos2 = "a ROS 2 bag: 'rosbags-convert' makes a ROS 1 .bag of it";
+  constexpr const char* kPacked = "a compressed file: 'zstd -d FILE' unpacks it";
   constexpr const char* kImage =
       "an image that is no PNG: ImageMagick's 'mogrify -format png FILE' keeps its 16 bits (of "
       "floats Python's ossa.Tracker takes whole millimetres, as uint16)";
@@ -83,14 +66,13 @@ const char* DescribeConversion(const std::filesystem::path& file) {
   constexpr const char* kZed = "a ZED recording: its SDK's ZED_SVO_Export makes 16-bit PNGs of it";
   using How = std::pair<std::string_view, const char*>;
   constexpr std::array kHow = {
-      How{".xef", kXef},    How{".mp4", kVideo}, How{".avi", kVideo},  How{".mov", kVideo},
-      How{".webm", kVideo}, How{".m4v", kVideo}, How{".wmv", kVideo},  How{".db3", kRos2},
-      How{".mcap", kRos2},  How{".tif", kImage}, How{".tiff", kImage}, How{".pgm", kImage},
-      How{".npy", kArray},  How{".npz", kArray}, How{".mat", kArray},  How{".h5", kArray},
-      How{".hdf5", kArray}, How{".pkl", kArray}, How{".raw", kRaw},    How{".bin", kRaw},
-      How{".exr", kFloats}, How{".ply", kCloud}, How{".pcd", kCloud},  How{".svo", kZed},
-      How{".svo2", kZed},   How{".sens", kSens}, How{".klg", kKlg},    How{".pfm", kFloats},
-      How{".jp2", kImage}};
+      How{".xef", kXef},    How{".mp4", kVideo},  How{".avi", kVideo},  How{".mov", kVideo},
+      How{".webm", kVideo}, How{".m4v", kVideo},  How{".wmv", kVideo},  How{".zstd", kPacked},
+      How{".tif", kImage},  How{".tiff", kImage}, How{".pgm", kImage},  How{".npy", kArray},
+      How{".npz", kArray},  How{".mat", kArray},  How{".h5", kArray},   How{".hdf5", kArray},
+      How{".pkl", kArray},  How{".raw", kRaw},    How{".bin", kRaw},    How{".exr", kFloats},
+      How{".ply", kCloud},  How{".pcd", kCloud},  How{".svo", kZed},    How{".svo2", kZed},
+      How{".sens", kSens},  How{".klg", kKlg},    How{".pfm", kFloats}, How{".jp2", kImage}};
   const auto found = std::find_if(
       kHow.begin(), kHow.end(),
       [extension = LowerCaseExtension(file)](const auto& how) { return how.first == extension; });
@@ -117,14 +99,14 @@ bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
     const std::filesystem::path file = BagName(path.string()).file;
     const std::string extension = LowerCaseExtension(file);
-    return IsOniName(path) || extension == ".mkv" || IsBagName(file) || IsPngName(path) ||
-           DescribeConversion(file) != nullptr;
+    return IsOniName(path) || extension == ".mkv" || IsRos1Name(file) || IsRos2Bag(file) ||
+           IsPngName(path) || DescribeConversion(file) != nullptr;
   }
   const std::filesystem::directory_iterator entries(path);
   const bool has_depth = std::any_of(begin(entries), end(entries), [](const auto& entry) {
     return IsPngName(entry.path()) || entry.path().filename() == "depth.txt";
   });
-  return has_depth || HoldsDepthFolder(path) || HoldsOnlyForeignImages(path);
+  return has_depth || HoldsDepthFolder(path) || HoldsOnlyForeignImages(path) || IsRos2Bag(path);
 }
 
 void SourceOptions::Check() const {
@@ -198,6 +180,7 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
     if (IsDataSet(path)) {
       return Prepared(source, OpenDataSet(path, options), UnitStated::kNo, options);
     }
+    if (IsRos2Bag(path)) return OpenRos2Bag(path, "", options);
     const std::filesystem::path folder = HoldsDepthFolder(path) ? path / "depth" : path;
     return Prepared(source, OpenFolder(folder, options), UnitStated::kNo, options);
   }
@@ -208,7 +191,8 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
   const std::string extension = LowerCaseExtension(bag.file);
   if (std::filesystem::exists(bag.file, error)) {
     if (extension == ".mkv") return OpenMkvFile(path, options);
-    if (IsBagName(bag.file)) return OpenBagFile(bag.file, bag.topic, options);
+    if (IsRos1Name(bag.file)) return OpenBagFile(bag.file, bag.topic, options);
+    if (IsRos2Bag(bag.file)) return OpenRos2Bag(bag.file, bag.topic, options);
     if (const char* how = DescribeConversion(bag.file)) {
       throw InputError(source + ": expected depth images, found " + how);
     }
@@ -218,8 +202,8 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
   }
   throw InputError(
       source +
-      ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, a 16-bit PNG or "
-      "a folder of them, or a data set, found " +
+      ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, FILE.db3, "
+      "FILE.mcap, a 16-bit PNG or a folder of them, or a data set, found " +
       (std::filesystem::exists(path, error) ? "a file of another name" : "no such file or folder"));
 }
 

@@ -45,6 +45,11 @@ std::unique_ptr<FrameSource> OpenMkvFile(const std::filesystem::path& path,
 std::unique_ptr<FrameSource> OpenBagFile(const std::filesystem::path& path,
                                          const std::string& topic, const SourceOptions& options);
 
+/// A ROS 2 bag, a file or a folder (bag_name_internal.h), by a reader of .db3 and .mcap in a child
+/// process.
+std::unique_ptr<FrameSource> OpenRos2Bag(const std::filesystem::path& path,
+                                         const std::string& topic, const SourceOptions& options);
+
 /// `options.camera` for images of this size. Presets describe the unmirrored sensor; for mirrored
 /// images they are mirrored, like all cameras of such images.
 Camera ChosenCamera(const SourceOptions& options, int width, int height);

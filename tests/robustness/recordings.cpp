@@ -12,6 +12,9 @@
 #include "tests/depth/sensor/bag_writer.h"
 #include "tests/depth/sensor/ros_bytes.h"
 #endif
+#ifdef OSSA_TEST_ROSBAG2
+#include "tests/depth/sensor/ros2_writer.h"
+#endif
 
 namespace ossa::test {
 namespace {
@@ -19,6 +22,13 @@ namespace {
 bool HasReader(const char* program) {
   return std::filesystem::exists(BinaryFolder() / "lib/openni2/reader" / program);
 }
+
+#if defined(OSSA_TEST_ROSBAG) || defined(OSSA_TEST_ROSBAG2)
+std::string ContentOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+#endif
 
 #ifdef OSSA_TEST_ROSBAG
 DamageSample Bag(const std::string& name, rosbag::compression::CompressionType compression) {
@@ -35,8 +45,33 @@ DamageSample Bag(const std::string& name, rosbag::compression::CompressionType c
               RawMessage{"sensor_msgs/CameraInfo", RosCameraInfoBytes(4, 3, 366)});
   }
   bag.close();
-  std::ifstream file(folder / name, std::ios::binary);
-  return {name, {std::istreambuf_iterator<char>(file), {}}, ReadRecording};
+  return {name, ContentOf(folder / name), ReadRecording};
+}
+#endif
+
+#ifdef OSSA_TEST_ROSBAG2
+std::vector<Ros2Message> ExampleMessages() {
+  constexpr auto kCdr = depth::RosWire::kCdr;
+  std::vector<Ros2Message> messages;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const depth::DepthFrame frame = ExampleFrame(static_cast<int>(i), 4, 3);
+    messages.push_back({"/depth/image", "sensor_msgs/msg/Image",
+                        RosImageBytes("16UC1", 4, 3, frame.depth_mm, 8, false, 100 + i, kCdr)});
+    messages.push_back({"/depth/camera_info", "sensor_msgs/msg/CameraInfo",
+                        RosCameraInfoBytes({.width = 4, .height = 3, .f = 366.0}, kCdr)});
+  }
+  return messages;
+}
+
+DamageSample SqliteBag() {
+  const TemporaryFolder folder;
+  SqliteWriter(folder / "x.db3").Write(ExampleMessages());
+  return {"x.db3", ContentOf(folder / "x.db3"), ReadRecording};
+}
+
+DamageSample Mcap(const std::string& name, const McapForm& form) {
+  const auto bytes = McapWriter(form).Write(ExampleMessages());
+  return {name, {bytes.begin(), bytes.end()}, ReadRecording};
 }
 #endif
 
@@ -69,6 +104,11 @@ std::vector<DamageSample> PlainRecordings() {
   samples.push_back(Bag("x.bag", CompressionType::Uncompressed));
   samples.push_back(Bag("bz2.bag", CompressionType::BZ2));
   samples.push_back(Bag("lz4.bag", CompressionType::LZ4));
+#endif
+#ifdef OSSA_TEST_ROSBAG2
+  samples.push_back(SqliteBag());
+  samples.push_back(Mcap("x.mcap", {.has_checksum = false}));
+  samples.push_back(Mcap("lz4.mcap", {.compression = "lz4"}));
 #endif
   return samples;
 }

@@ -12,7 +12,7 @@
 
 namespace ossa::commands {
 
-/// Throws InputError if there is no such file. FILE#truth, FILE.bag#/topic and similar are files,
+/// Throws InputError if there is no such file. FILE#truth, BAG#/topic and similar are files,
 /// too; devices are described by their driver.
 inline void RequireExists(const std::string& file) {
   if (IsDevice(file)) return;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "depth/base/error.h"
+#include "depth/sensor/bag_name_internal.h"
 #include "depth/sensor/openni2/runtime_folder.h"
 #include "depth/sensor/readers/reader_pipe_internal.h"
 #include "depth/sensor/recording_pipe_internal.h"
@@ -141,6 +142,15 @@ std::unique_ptr<FrameSource> OpenBagFile(const fs::path& path, const std::string
   const std::string name = path.string() + (topic.empty() ? "" : "#" + topic);
   return OpenWith({"ossa_bag_reader", "librosbag-storage4d"}, name,
                   {fs::absolute(path).string(), topic}, options);
+}
+
+std::unique_ptr<FrameSource> OpenRos2Bag(const fs::path& path, const std::string& topic,
+                                         const SourceOptions& options) {
+  const std::string name = path.string() + (topic.empty() ? "" : "#" + topic);
+  std::vector<std::string> arguments;
+  for (const fs::path& file : ListRos2Files(path)) arguments.push_back(fs::absolute(file).string());
+  arguments.push_back(topic);
+  return OpenWith({"ossa_rosbag2_reader", "libsqlite3-0"}, name, arguments, options);
 }
 
 }  // namespace ossa::depth

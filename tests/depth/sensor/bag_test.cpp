@@ -7,6 +7,7 @@
 
 #include "depth/sensor/frame_source.h"
 #include "tests/depth/sensor/bag_writer.h"
+#include "tests/depth/sensor/frames_of.h"
 #include "tests/depth/sensor/ros_bytes.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
@@ -15,6 +16,7 @@ namespace ossa::depth {
 namespace {
 
 using rosbag::compression::CompressionType;
+using test::FramesOf;
 using test::RawMessage;
 
 void Write(rosbag::Bag& bag, const std::string& topic, uint32_t seconds,
@@ -40,15 +42,6 @@ void WriteBag(const std::string& path, CompressionType compression) {
           {"sensor_msgs/CameraInfo", test::RosCameraInfoBytes(4, 2, 366)});
   }
   bag.close();
-}
-
-std::vector<DepthFrame> FramesOf(FrameSource& source) {
-  std::vector<DepthFrame> frames;
-  for (;;) {
-    ReadResult read = source.Read(std::chrono::milliseconds(1000));
-    if (read.status == ReadStatus::kEnd) return frames;
-    if (read.status == ReadStatus::kFrame) frames.push_back(std::move(read.frame));
-  }
 }
 
 class Bags : public testing::TestWithParam<CompressionType> {};

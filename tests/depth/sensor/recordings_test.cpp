@@ -7,6 +7,7 @@
 
 #include "depth/base/error.h"
 #include "depth/sensor/frame_source.h"
+#include "tests/depth/sensor/frames_of.h"
 #include "tests/support/places.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
@@ -15,15 +16,7 @@ namespace ossa::depth {
 namespace {
 
 using std::chrono::milliseconds;
-
-std::vector<DepthFrame> FramesOf(FrameSource& source) {
-  std::vector<DepthFrame> frames;
-  for (;;) {
-    ReadResult read = source.Read(milliseconds(1000));
-    if (read.status == ReadStatus::kEnd) return frames;
-    if (read.status == ReadStatus::kFrame) frames.push_back(std::move(read.frame));
-  }
-}
+using test::FramesOf;
 
 bool HasReader(const char* program) {
   return std::filesystem::exists(test::BinaryFolder() / "lib/openni2/reader" / program);
@@ -79,7 +72,7 @@ TEST(OpenNi1Oni, IsRead) {
 TEST(OtherRecordings, AreRefusedWithAWayToConvertThem) {
   const test::TemporaryFolder folder;
   const std::vector<std::pair<const char*, const char*>> cases = {
-      {"a.xef", "KinectXEFTools"},  {"a.MP4", "ffmpeg"},         {"a.mcap", "rosbags-convert"},
+      {"a.xef", "KinectXEFTools"},  {"a.MP4", "ffmpeg"},         {"a.zstd", "zstd -d"},
       {"a.TIFF", "mogrify"},        {"a.npy", "ossa.Tracker"},   {"a.h5", "ossa.Tracker"},
       {"a.exr", "of floats"},       {"a.bin", "numpy.fromfile"}, {"a.PLY", "a cloud of points"},
       {"a.svo2", "ZED_SVO_Export"}, {"a.sens", "reader.py"},     {"a.klg", "ElasticFusion"},

@@ -1,11 +1,11 @@
-#include "depth/sensor/readers/ros_messages.h"
+#include "depth/sensor/readers/ros/ros_messages.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "depth/sensor/readers/bag_topics.h"
+#include "depth/sensor/readers/ros/bag_topics.h"
 #include "tests/depth/sensor/ros_bytes.h"
 #include "tests/support/refused.h"
 

@@ -1,6 +1,6 @@
 """Skeletons from a RealSense by pyrealsense2 (pip install pyrealsense2).
 
-Usage: realsense.py [FILE.bag]    a camera, or what one recorded
+Usage: realsense.py [FILE]    a camera, or what one recorded (.db3; by older versions .bag)
 """
 
 import sys

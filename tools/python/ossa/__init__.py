@@ -9,7 +9,7 @@
 
 Tracker           depth images to bodies; its results are Frame, Body, Fit, Mesh, Proposals
 Camera            intrinsics of a depth camera; Camera.preset("kinect-v2")
-open              any SOURCE of `ossa track`: devices, .oni, .mkv, .bag, PNG folders
+open              any SOURCE of `ossa track`: devices, .oni, .mkv, bags of ROS, PNG folders
 Forest            body parts and probabilities of one image
 Sequence          recorded skeletons: read_skeletons, read_recordings, write_skeletons
 reconstruct       methods that make recorded skeletons complete and plausible

@@ -9,11 +9,11 @@
 
 #include "depth/image/camera.h"
 #include "depth/sensor/readers/lens_camera.h"
+#include "depth/sensor/readers/ros/ros_fields.h"
 
 namespace ossa::depth {
 
-// ROS 1 messages as stored in a bag (wiki.ros.org/msg, little-endian, strings and arrays preceded
-// by their length). Parsers throw InputError for truncated messages.
+// Messages of ROS 1 and ROS 2 as stored in a bag. Parsers throw InputError for truncated ones.
 
 /// sensor_msgs/Image.
 struct RosImage {
@@ -24,7 +24,7 @@ struct RosImage {
   uint32_t step = 0;              // bytes from one row to the next
   std::span<const uint8_t> data;  // within the message
 };
-RosImage ParseRosImage(std::span<const uint8_t> message);
+RosImage ParseRosImage(std::span<const uint8_t> message, RosWire wire = RosWire::kRos1);
 
 /// sensor_msgs/CameraInfo.
 struct RosCameraInfo {
@@ -38,7 +38,15 @@ struct RosCameraInfo {
   };
   Region region;  // of the whole that the sensor gives, pixels of the whole; 0 x 0: all of it
 };
-RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> message);
+RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> message, RosWire wire = RosWire::kRos1);
+
+/// sensor_msgs/CompressedImage.
+struct RosCompressedImage {
+  double time_s = 0.0;  // header.stamp; 0: not stamped
+  std::string format;
+  std::span<const uint8_t> data;  // within the message
+};
+RosCompressedImage ParseRosCompressedImage(std::span<const uint8_t> message, RosWire wire);
 
 /// Whether a topic has rectified images, such as image_rect: they have the camera p, others k.
 bool IsRectified(std::string_view topic);
@@ -54,11 +62,13 @@ std::optional<LensCamera> LensOf(const RosCameraInfo& info, const Camera& camera
 bool HasLens(const RosCameraInfo& info);
 
 /// std_msgs/Float32.
-float ParseRosFloat(std::span<const uint8_t> message);
+float ParseRosFloat(std::span<const uint8_t> message, RosWire wire = RosWire::kRos1);
+/// std_msgs/String.
+std::string ParseRosText(std::span<const uint8_t> message, RosWire wire);
 
 enum class RosDepth {
   kNone,
-  k16Bits,  // 16UC1 or mono16
+  k16Bits,  // 16UC1 or mono16, which Orbbec's recorder calls Z16 and mono16
   kMetres,  // 32FC1
 };
 RosDepth ParseDepthEncoding(const RosImage& image);

@@ -1,7 +1,6 @@
-#include "depth/sensor/readers/ros_messages.h"
+#include "depth/sensor/readers/ros/ros_messages.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -9,48 +8,6 @@
 
 namespace ossa::depth {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "ROS's byte order is taken for ours");
-
-// The remaining bytes of a message.
-class Message {
- public:
-  explicit Message(std::span<const uint8_t> bytes) : bytes_(bytes) {}
-
-  std::span<const uint8_t> Bytes(size_t size) {
-    if (size > bytes_.size()) {
-      throw InputError("a message: expected " + std::to_string(size) + " more bytes, found " +
-                       std::to_string(bytes_.size()));
-    }
-    const auto taken = bytes_.first(size);
-    bytes_ = bytes_.subspan(size);
-    return taken;
-  }
-  template <typename T>
-  T Value() {
-    T value{};
-    std::memcpy(&value, Bytes(sizeof(T)).data(), sizeof(T));
-    return value;
-  }
-  std::span<const uint8_t> Array(size_t element_size) {
-    return Bytes(size_t{Value<uint32_t>()} * element_size);
-  }
-  std::string Text() {
-    const auto text = Array(1);
-    return {reinterpret_cast<const char*>(text.data()), text.size()};
-  }
-  /// std_msgs/Header: its stamp.
-  double Header() {
-    constexpr double kSecondsPerNanosecond = 1e-9;
-    Value<uint32_t>();  // seq
-    const auto seconds = Value<uint32_t>(), nanoseconds = Value<uint32_t>();
-    Text();  // frame_id
-    return seconds + kSecondsPerNanosecond * nanoseconds;
-  }
-
- private:
-  std::span<const uint8_t> bytes_;
-};
 
 template <typename Sample>
 std::vector<Sample> DecodeSamples(const RosImage& image) {
@@ -92,37 +49,44 @@ uint16_t Millimetres(double metres) {
 
 }  // namespace
 
-RosImage ParseRosImage(std::span<const uint8_t> bytes) {
-  Message message(bytes);
+RosImage ParseRosImage(std::span<const uint8_t> message, RosWire wire) {
+  RosFields fields(message, wire);
   RosImage image;
-  image.time_s = message.Header();
-  image.height = message.Value<uint32_t>();
-  image.width = message.Value<uint32_t>();
-  image.encoding = message.Text();
-  image.is_bigendian = message.Value<uint8_t>() != 0;
-  image.step = message.Value<uint32_t>();
-  image.data = message.Array(1);
+  image.time_s = fields.Header();
+  image.height = fields.Value<uint32_t>();
+  image.width = fields.Value<uint32_t>();
+  image.encoding = fields.Text();
+  image.is_bigendian = fields.Value<uint8_t>() != 0;
+  image.step = fields.Value<uint32_t>();
+  image.data = fields.ByteSequence();
   return image;
 }
 
-RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> bytes) {
-  Message message(bytes);
-  message.Header();
+RosCompressedImage ParseRosCompressedImage(std::span<const uint8_t> message, RosWire wire) {
+  RosFields fields(message, wire);
+  RosCompressedImage image;
+  image.time_s = fields.Header();
+  image.format = fields.Text();
+  image.data = fields.ByteSequence();
+  return image;
+}
+
+RosCameraInfo ParseRosCameraInfo(std::span<const uint8_t> message, RosWire wire) {
+  RosFields fields(message, wire);
+  fields.Header();
   RosCameraInfo info;
-  info.height = message.Value<uint32_t>();
-  info.width = message.Value<uint32_t>();
-  info.distortion_model = message.Text();
-  const auto d = message.Array(sizeof(double));
-  info.d.resize(d.size() / sizeof(double));
-  if (!d.empty()) std::memcpy(info.d.data(), d.data(), d.size());
-  info.k = message.Value<std::array<double, 9>>();
-  message.Value<std::array<double, 9>>();  // R
-  info.p = message.Value<std::array<double, 12>>();
-  message.Value<std::array<uint32_t, 2>>();  // binning follows from the image size
-  info.region.left = message.Value<uint32_t>();
-  info.region.top = message.Value<uint32_t>();
-  info.region.height = message.Value<uint32_t>();
-  info.region.width = message.Value<uint32_t>();
+  info.height = fields.Value<uint32_t>();
+  info.width = fields.Value<uint32_t>();
+  info.distortion_model = fields.Text();
+  info.d = fields.Sequence<double>();
+  info.k = fields.Values<double, 9>();
+  fields.Values<double, 9>();  // R
+  info.p = fields.Values<double, 12>();
+  fields.Values<uint32_t, 2>();  // binning follows from the image size
+  info.region.left = fields.Value<uint32_t>();
+  info.region.top = fields.Value<uint32_t>();
+  info.region.height = fields.Value<uint32_t>();
+  info.region.width = fields.Value<uint32_t>();
   return info;
 }
 
@@ -178,10 +142,18 @@ std::optional<LensCamera> LensOf(const RosCameraInfo& info, const Camera& camera
   return lens;
 }
 
-float ParseRosFloat(std::span<const uint8_t> bytes) { return Message(bytes).Value<float>(); }
+float ParseRosFloat(std::span<const uint8_t> message, RosWire wire) {
+  return RosFields(message, wire).Value<float>();
+}
+
+std::string ParseRosText(std::span<const uint8_t> message, RosWire wire) {
+  return RosFields(message, wire).Text();
+}
 
 RosDepth ParseDepthEncoding(const RosImage& image) {
-  if (image.encoding == "16UC1" || image.encoding == "mono16") return RosDepth::k16Bits;
+  for (const char* name : {"16UC1", "mono16", "Z16", "z16"}) {
+    if (image.encoding == name) return RosDepth::k16Bits;
+  }
   return image.encoding == "32FC1" ? RosDepth::kMetres : RosDepth::kNone;
 }
 
