@@ -152,7 +152,7 @@ bool IsLying(const Scene& scene, const Candidate& candidate, double time_s,
   const Region& region = candidate.region;
   const Eigen::Vector3f top_m(region.mean_m.x(), region.high_m.y(), region.mean_m.z());
   return StandsOut(candidate, options.rest) && time_s - track.moved_s < options.lying_s &&
-         scene.floor->HeightOf(track.mean_m.cast<double>()) < options.lying_below_m &&
+         scene.floor->HeightOf(track.mean_m.cast<double>()) < options.rest.floor_below_m &&
          scene.floor->HeightOf(top_m.cast<double>()) < options.lying_top_m;
 }
 

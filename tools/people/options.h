@@ -125,6 +125,8 @@ struct PlanarOccluderOptions {
 /// somebody on the floor or in a sofa is hardly in front of it.
 struct RestOptions {
   double foreground_share = 0.2, background_share = 0.3;
+  // Anthropometry: the middle of who lies or sits on the floor is below this height.
+  double floor_below_m = 0.5;
   // Seconds for which somebody on the floor counts as that who was it: noise hides them at times.
   double lay_s = 1.0;
 };
@@ -138,9 +140,7 @@ struct PredictionOptions {
                                   // cells
   double in_plane_share = 0.33;   // of a track's cells in the plane of furniture; more are a person
   double plane_score = 0.75;      // mean score of a track over which no plane grows, [0, 1]
-  // Anthropometry: the middle of who lies or sits on the floor is below this height; from it to
-  // head or feet, and a step.
-  double lying_below_m = 0.5;
+  // Anthropometry: of who lies, from the middle to head or feet, and a step.
   float lying_reach_m = 1.2F;
   RestOptions rest;
   double return_score = 0.6;      // last mean score of a track, [0, 1], that may return
@@ -361,10 +361,9 @@ struct AssociationOptions {
   double certain_s = 30.0;
   // Somebody on the floor stays one for this time after their last movement, because who fell may
   // lie there for long: by hand, a person moves now and then, a bag that they left does not.
-  // Anthropometry: the middle as in PredictionOptions, and the top, of somebody on their elbows:
-  // the backs of chairs that they moved are higher.
-  double lying_s = 600.0;
-  double lying_below_m = 0.5, lying_top_m = 0.75;
+  // Anthropometry: the top of somebody on their elbows; the backs of chairs that they moved are
+  // higher.
+  double lying_s = 600.0, lying_top_m = 0.75;
   RestOptions rest;
   MotionOptions motion;
   ReidentifyOptions reidentify;

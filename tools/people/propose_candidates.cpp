@@ -53,7 +53,7 @@ void KeepLying(const Scene& scene, const std::vector<Track>& tracks, double time
   if (!scene.floor) return;
   for (const Track& track : tracks) {
     const Vector3f mean_m = PredictMean_m(track, time_s, options.max_prediction_s);
-    const bool is_low = scene.floor->HeightOf(mean_m.cast<double>()) < options.lying_below_m;
+    const bool is_low = scene.floor->HeightOf(mean_m.cast<double>()) < options.rest.floor_below_m;
     if (!is_low || time_s >= track.certain_until_s) continue;
     for (size_t i = 0; i < masks.ignored.size(); ++i) {
       if (!scene.background.foreground[i] || scene.surfaces.floor[i]) continue;

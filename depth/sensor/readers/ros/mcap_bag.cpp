@@ -21,7 +21,6 @@ namespace {
 using Bytes = std::span<const uint8_t>;
 
 constexpr std::array<char, 8> kMagic = {'\x89', 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-constexpr double kSecondsPerNanosecond = 1e-9;
 
 // Kinds of records, of mcap.dev/spec.
 enum Record : uint8_t {

@@ -12,6 +12,8 @@
 
 namespace ossa::depth {
 
+inline constexpr double kSecondsPerNanosecond = 1e-9;
+
 /// Serialization of messages.
 enum class RosWire {
   kRos1,  // wiki.ros.org/msg: little-endian, packed
@@ -75,7 +77,6 @@ class RosFields {
 
   /// std_msgs/Header: its stamp, seconds.
   double Header() {
-    constexpr double kSecondsPerNanosecond = 1e-9;
     if (wire_ == RosWire::kRos1) Value<uint32_t>();  // seq
     const auto seconds = Value<uint32_t>(), nanoseconds = Value<uint32_t>();
     Text();  // frame_id

@@ -13,8 +13,6 @@
 namespace ossa::depth {
 namespace {
 
-constexpr double kSecondsPerNanosecond = 1e-9;
-
 struct Close {
   void operator()(sqlite3* database) const { sqlite3_close(database); }
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
