@@ -127,14 +127,16 @@ TEST(McapBag, ThatWasNotClosedIsReadWithAWarning) {
 
 TEST(McapBag, ReturnsTheFramesBeforeADamagedChunk) {
   const TemporaryFolder folder;
-  auto bytes = test::McapWriter(McapForm{}).Write(SomeMessages());
-  bytes[bytes.size() - 200] ^= 0x10;  // within the last image's chunk
-  WriteFile(folder / "x.mcap", bytes);
-  const auto source = OpenSource(folder / "x.mcap");
-  for (int i = 0; i < 2; ++i) {
-    ASSERT_EQ(source->Read(std::chrono::seconds(10)).status, ReadStatus::kFrame) << i;
+  for (const bool has_index : {true, false}) {
+    auto bytes = test::McapWriter({.has_index = has_index}).Write(SomeMessages());
+    bytes[bytes.size() - 200] ^= 0x10;  // within the last image's chunk
+    WriteFile(folder / "x.mcap", bytes);
+    const auto source = OpenSource(folder / "x.mcap");
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_EQ(source->Read(std::chrono::seconds(10)).status, ReadStatus::kFrame) << i;
+    }
+    test::ExpectRefused([&] { source->Read(std::chrono::seconds(10)); }, "found damage");
   }
-  test::ExpectRefused([&] { source->Read(std::chrono::seconds(10)); }, "found damage");
 }
 
 TEST(McapBag, RefusesWhatIsNoMcap) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "depth/base/error.h"
@@ -24,19 +25,20 @@ constexpr std::array<char, 8> kMagic = {'\x89', 'M', 'C', 'A', 'P', '0', '\r', '
 
 // Kinds of records, of mcap.dev/spec.
 enum Record : uint8_t {
+  kFooter = 0x02,
   kSchema = 0x03,
   kChannel = 0x04,
   kMessage = 0x05,
   kChunk = 0x06,
   kMessageIndex = 0x07,
-  kDataEnd = 0x0F,
 };
 
 // The numbers and texts of a record are laid out as ROS 1 has them.
 RosFields FieldsOf(Bytes record) { return {record, RosWire::kRos1}; }
 
 struct Channel {
-  std::string topic, type;
+  std::string topic;
+  uint16_t schema = 0;
   std::optional<RosWire> wire;  // none: not of ROS
 };
 
@@ -78,17 +80,16 @@ class McapBag final : public BagFile {
  public:
   explicit McapBag(const std::string& path) : reader_(path) {
     Scan();
-    // Without an index, only the chunks themselves tell what is in them.
-    for (Part& part : parts_) {
-      if (!part.channels) LearnChannels(part);
-    }
+    for (Part& part : parts_) Learn(part);
   }
 
   std::vector<BagTopic> ListTopics() override {
     std::map<std::string, BagTopic> topics;
     for (const auto& [id, channel] : channels_) {
-      if (channel.wire) topics[channel.topic] = {channel.topic, channel.type, *channel.wire};
+      const std::string& type = schemas_[channel.schema];
+      if (channel.wire) topics[channel.topic] = {channel.topic, type, *channel.wire};
     }
+    if (topics.empty() && !damaged_chunk_.empty()) throw InputError(damaged_chunk_);
     std::vector<BagTopic> listed;
     for (const auto& [name, topic] : topics) listed.push_back(topic);
     return listed;
@@ -110,7 +111,7 @@ class McapBag final : public BagFile {
   std::string damage() const override { return damage_; }
 
  private:
-  // Walks the records of the file up to the end of its data, without the contents of chunks.
+  // Walks the records of the file, its summary included, without the contents of chunks.
   void Scan() {
     constexpr uint64_t kHeader = sizeof(uint8_t) + sizeof(uint64_t);
     for (uint64_t at = kMagic.size();;) {
@@ -119,7 +120,7 @@ class McapBag final : public BagFile {
       RosFields fields = FieldsOf(header);
       const auto kind = fields.Value<uint8_t>();
       const auto size = fields.Value<uint64_t>();
-      if (kind == kDataEnd) return;
+      if (kind == kFooter) return;
       if (size > reader_.size() - at - kHeader) return NoteCut(at);
       ScanRecord(kind, at + kHeader, size);
       at += kHeader + size;
@@ -154,7 +155,6 @@ class McapBag final : public BagFile {
     if (parts_.empty() || parts_.back().kind != kChunk || count == 0) return;
     Part& chunk = parts_.back();
     if (!chunk.channels) chunk.channels.emplace();
-    if (!channels_.contains(id)) LearnTypes(chunk);
     if (chunk.channels->insert(id).second) counts_[id] += static_cast<int64_t>(count);
   }
 
@@ -166,9 +166,8 @@ class McapBag final : public BagFile {
       return;
     }
     Channel channel;
-    const auto schema = fields.Value<uint16_t>();
+    channel.schema = fields.Value<uint16_t>();
     channel.topic = fields.Text();
-    channel.type = schemas_[schema];
     const std::string encoding = fields.Text();
     if (encoding == "ros1") channel.wire = RosWire::kRos1;
     if (encoding == "cdr") channel.wire = RosWire::kCdr;
@@ -187,6 +186,27 @@ class McapBag final : public BagFile {
     }
   }
 
+  // Without an index or a summary, only the chunk itself tells what is in it. A damaged one says so
+  // when it is read, after the messages before it.
+  void Learn(Part& part) {
+    if (part.kind == kMessage) return;
+    try {
+      if (!part.channels) {
+        LearnChannels(part);
+      } else if (HasUnknownChannel(part)) {
+        LearnTypes(part);
+      }
+    } catch (const InputError& error) {
+      part.channels.reset();
+      if (damaged_chunk_.empty()) damaged_chunk_ = error.what();
+    }
+  }
+
+  bool HasUnknownChannel(const Part& part) const {
+    return std::any_of(part.channels->begin(), part.channels->end(),
+                       [this](uint16_t id) { return !channels_.contains(id); });
+  }
+
   void LearnTypes(const Part& chunk) {
     ForEachRecord(Unpack(chunk), [this](uint8_t kind, Bytes record) {
       if (kind == kSchema || kind == kChannel) NoteType(kind, record);
@@ -194,14 +214,15 @@ class McapBag final : public BagFile {
   }
 
   void LearnChannels(Part& chunk) {
-    chunk.channels.emplace();
-    ForEachRecord(Unpack(chunk), [this, &chunk](uint8_t kind, Bytes record) {
+    std::set<uint16_t> found;
+    ForEachRecord(Unpack(chunk), [this, &found](uint8_t kind, Bytes record) {
       if (kind == kSchema || kind == kChannel) NoteType(kind, record);
       if (kind != kMessage) return;
       const auto id = FieldsOf(record).Value<uint16_t>();
-      chunk.channels->insert(id);
+      found.insert(id);
       ++counts_[id];
     });
+    chunk.channels = std::move(found);
   }
 
   std::set<uint16_t> ChannelsOf(const std::string& topic) const {
@@ -213,8 +234,9 @@ class McapBag final : public BagFile {
   }
 
   static bool Holds(const Part& part, const std::set<uint16_t>& wanted) {
-    return std::any_of(wanted.begin(), wanted.end(),
-                       [&part](uint16_t id) { return part.channels->contains(id); });
+    return !part.channels || std::any_of(wanted.begin(), wanted.end(), [&part](uint16_t id) {
+      return part.channels->contains(id);
+    });
   }
 
   std::vector<uint8_t> Unpack(const Part& chunk) {
@@ -272,6 +294,7 @@ class McapBag final : public BagFile {
   std::map<uint16_t, Channel> channels_;
   std::map<uint16_t, int64_t> counts_;  // messages
   std::string damage_;
+  std::string damaged_chunk_;  // what is wrong with the first that could not be learned from
 };
 
 }  // namespace
