@@ -144,16 +144,26 @@ bool IsAmong(const std::vector<int>& ids, int id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-// Whether a track is on the floor, in front of the room as it was, and moved not too long ago. With
-// a carried sensor nothing is known of the room.
+// Whether a track is on the floor and moved not too long ago. With a carried sensor nothing is
+// known of the room.
 bool IsLying(const Scene& scene, const Candidate& candidate, double time_s,
              const AssociationOptions& options, const Track& track) {
   if (!scene.floor || scene.background.certain_share <= kMajority) return false;
   const Region& region = candidate.region;
   const Eigen::Vector3f top_m(region.mean_m.x(), region.high_m.y(), region.mean_m.z());
-  return StandsOut(candidate, options.rest) && time_s - track.moved_s < options.lying_s &&
+  return time_s - track.moved_s < options.lying_s &&
          scene.floor->HeightOf(track.mean_m.cast<double>()) < options.rest.floor_below_m &&
          scene.floor->HeightOf(top_m.cast<double>()) < options.lying_top_m;
+}
+
+// Who was a person for sure stays one while they move, and on the floor for longer.
+void StayCertain(const Scene& scene, const Candidate& candidate, double time_s,
+                 const AssociationOptions& options, Track& track) {
+  if (!StandsOut(candidate, options.rest)) return;
+  track.certain_until_s = std::max(track.certain_until_s, track.moved_s + options.certain_s);
+  if (!IsLying(scene, candidate, time_s, options, track)) return;
+  track.lay_s = time_s;
+  track.certain_until_s = time_s + options.certain_s;
 }
 
 // Updates tracks that went out of view. `ids`: of the people in this frame.
@@ -259,10 +269,7 @@ std::vector<int> AssociateTracks(const Scene& scene, const std::vector<Region>& 
     Track& track = tracks[static_cast<size_t>(track_of[p])];
     const bool was_certain = time_s < track.certain_until_s;
     UpdateTrack(scene.grid, people[p], person_of, static_cast<int>(p), time_s, options, track);
-    if (was_certain && IsLying(scene, people[p].candidate, time_s, options, track)) {
-      track.lay_s = time_s;
-      track.certain_until_s = time_s + options.certain_s;
-    }
+    if (was_certain) StayCertain(scene, people[p].candidate, time_s, options, track);
     ids.push_back(track.id);
   }
   DeleteAbsorbed(people, ids, tracks);

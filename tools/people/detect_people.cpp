@@ -136,8 +136,9 @@ PeopleInFrame DetectPeople(const DepthFrame& frame, const PersonClassifier& clas
     depth::ForgetBackground(scene.grid, person.candidate.region.cells, state.scene.background,
                             options.scene.background);
   }
-  depth::LearnBackground(scene.grid, MarkPeople(scene, people, tracks, frame.time_s),
-                         state.scene.background, options.scene.background);
+  std::vector<uint8_t> claimed = MarkPeople(scene, people, tracks, frame.time_s);
+  MarkLikelyPeople(state.tentative, options.initiation, claimed);
+  depth::LearnBackground(scene.grid, claimed, state.scene.background, options.scene.background);
   AddPeople(frame.camera, ids, std::move(people), result);
   result.decisions.tracks = SummarizeTracks(tracks, ids);
   DistributeTime(watch.milliseconds(), classification_ms, result);

@@ -354,8 +354,9 @@ struct AssociationOptions {
   double rival_log_odds = 1;    // log-odds against an unconfirmed candidate being a lost track
   double max_rival_taken_share = 0.1;  // share of a rival's cells that people may hold
   double keep_cells_s = 0.2;           // age of a lost track's cells when they are deleted
-  // A track of this age, in detections, with this mean score is a person for sure, for this time:
-  // long enough to lie on the floor or deep in a sofa, where people hardly score.
+  // A track of this age, in detections, with this mean score is a person for sure, for this time
+  // since then, or since their last movement in front of the room as it was: long enough to lie on
+  // the floor or sit deep in a sofa, where people hardly score.
   int certain_age = 12;
   double certain_score = 0.75;
   double certain_s = 30.0;

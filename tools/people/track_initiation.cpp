@@ -326,6 +326,14 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
   return selected;
 }
 
+void MarkLikelyPeople(const std::vector<TentativeTrack>& tentative,
+                      const InitiationOptions& options, std::vector<uint8_t>& marked) {
+  for (const TentativeTrack& track : tentative) {
+    if (track.observations < 2 || track.mean_score < options.likely_score) continue;
+    for (const int cell : track.cells) marked[static_cast<size_t>(cell)] = 1;
+  }
+}
+
 double RequireOfPiece(const Detection& piece, bool one_so_far, const InitiationOptions& options) {
   return one_so_far && piece.candidate.track < 0 ? options.confident_score
                                                  : options.new_person_score;

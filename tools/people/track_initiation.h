@@ -37,6 +37,12 @@ std::vector<Candidate> SelectCandidates(std::vector<Candidate> candidates, bool 
                                         std::vector<TentativeTrack>& tentative,
                                         std::vector<Decision>& decided);
 
+/// Marks the cells where a tentative track is that has scored like a person more than once: they
+/// touch furniture in most frames, or are hardly separable from a wall, and must not become part of
+/// the room before there are enough observations.
+void MarkLikelyPeople(const std::vector<TentativeTrack>& tentative,
+                      const InitiationOptions& options, std::vector<uint8_t>& marked);
+
 /// The score that a segment around one of several heads needs to be a person: more if its region
 /// was one person so far, whose track another segment continues. They may hold a carton.
 double RequireOfPiece(const Detection& piece, bool one_so_far, const InitiationOptions& options);

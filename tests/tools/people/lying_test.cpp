@@ -33,8 +33,14 @@ class LowPerson : public testing::Test {
   void ExpectCertainForNoLonger() {
     Track& track = Recognise();
     const double until_s = track.certain_until_s;
+    track.moved_s = -1e3;
     for (int i = 0; i < 30; ++i) SeePerson();
     EXPECT_EQ(track.certain_until_s, until_s);
+  }
+  void ExpectCertainSinceTheLastMovement() {
+    Track& track = Recognise();
+    SeePerson();
+    EXPECT_EQ(track.certain_until_s, track.moved_s + AssociationOptions{}.certain_s);
   }
   // Frames of which five in six miss them: as many as the empty room was seen in are 48.
   void Miss(int frames) {
@@ -85,6 +91,8 @@ struct SeatedPerson : LowPerson {
 
 TEST_F(StandingPerson, WhoScoresLowIsNoneForSureAfterAWhile) { ExpectCertainForNoLonger(); }
 TEST_F(SeatedPerson, WhoScoresLowIsNoneForSureAfterAWhile) { ExpectCertainForNoLonger(); }
+TEST_F(StandingPerson, WhoMovedNotLongAgoIsOneForSure) { ExpectCertainSinceTheLastMovement(); }
+TEST_F(SeatedPerson, WhoMovedNotLongAgoIsOneForSure) { ExpectCertainSinceTheLastMovement(); }
 
 TEST_F(LowPerson, IsNotLearnedAsTheRoomWhileMissed) {
   Recognise().certain_until_s = 1e9;

@@ -1,6 +1,8 @@
 // Track initiation and termination: synthetic detections, no forest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tools/people/detect_people.h"
 #include "tools/people/track_initiation.h"
 
@@ -161,6 +163,22 @@ TEST_F(NewPerson, StaticLikeFurnitureIsNeverAccepted) {
   // ... but not of one that a passer-by uncovers by a quarter: it is no foreground.
   const auto uncovered = [](int f) { return Observation{0.7, 0, 0, f < 10 ? 0.1F : 0.125F}; };
   EXPECT_EQ(AcceptedIn(60, false, uncovered), -1);
+}
+
+TEST_F(NewPerson, ThatScoredLikeAPersonTwiceIsNotLearnedAsTheRoom) {
+  const auto marked_after = [this](int frames, double score) {
+    std::vector<TentativeTrack> tentative;
+    for (int f = 0; f < frames; ++f) {
+      Detection detection = Detect({score});
+      EXPECT_FALSE(DecidePerson(false, f / 30.0, options_, tentative, detection));
+    }
+    std::vector<uint8_t> marked(160 * 120, 0);
+    MarkLikelyPeople(tentative, options_, marked);
+    return std::count(marked.begin(), marked.end(), uint8_t{1});
+  };
+  EXPECT_EQ(marked_after(1, 0.95), 0);
+  EXPECT_EQ(marked_after(2, 0.95), 100);
+  EXPECT_EQ(marked_after(2, 0.85), 0);
 }
 
 TEST_F(NewPerson, ThatEnteredBehindOthersIsTrackedWithLowScores) {
