@@ -43,7 +43,7 @@ struct Reading {
     return *std::find_if(topics.begin(), topics.end(),
                          [&name](const BagTopic& topic) { return topic.name == name; });
   }
-  // The value of a topic's first message; `otherwise` if there is no such topic or message.
+  // The value of a topic's first message; T{} if there is no such topic or message.
   template <typename T>
   T First(const std::string& name, T (*read)(const BagTopic&, std::span<const uint8_t>)) const {
     const auto first = name.empty() ? std::nullopt : ReadFirst(bag, name);

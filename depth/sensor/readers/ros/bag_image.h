@@ -8,7 +8,7 @@
 
 namespace ossa::depth {
 
-/// An image of a topic. `image.data` lies in the message or in `unpacked`.
+/// An image of a topic. `image.data` lies in the message or in `unpacked`: to be moved, not copied.
 struct BagImage {
   RosImage image;
   std::vector<uint8_t> unpacked;
