@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -6,7 +5,6 @@
 #include "depth/base/lower_case.h"
 #include "depth/sensor/bag_name_internal.h"
 #include "depth/sensor/folder_listing_internal.h"
-#include "depth/sensor/frame_names.h"
 
 namespace ossa::depth {
 namespace {
@@ -22,15 +20,11 @@ bool IsPackedRos2Name(const fs::path& path) {
   return LowerCaseExtension(path) == ".zstd" && IsRos2Name(path.stem());
 }
 
-// The files of a folder that a name's test selects, in natural order.
+// The files of a folder that a name's test selects, without macOS's resource files.
 std::vector<fs::path> FilesOf(const fs::path& folder, bool (*is_wanted)(const fs::path&)) {
-  std::vector<fs::path> files;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    if (is_wanted(entry.path()) && entry.is_regular_file(none)) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return NaturalLess(a.filename().string(), b.filename().string());
+  std::vector<fs::path> files = FilesIn(folder);
+  std::erase_if(files, [is_wanted](const fs::path& path) {
+    return !is_wanted(path) || path.filename().string().starts_with('.');
   });
   return files;
 }

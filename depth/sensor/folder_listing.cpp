@@ -35,19 +35,6 @@ bool IsExpectedBeside(const fs::path& path) {
   return std::find(kKnown.begin(), kKnown.end(), path.filename().string()) != kKnown.end();
 }
 
-std::vector<fs::path> FilesIn(const fs::path& folder) {
-  std::vector<fs::path> paths;
-  std::error_code error, unknown;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (!it->is_directory(unknown)) paths.push_back(it->path());
-  }
-  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
-  std::sort(paths.begin(), paths.end(), [](const fs::path& a, const fs::path& b) {
-    return NaturalLess(a.filename().string(), b.filename().string());
-  });
-  return paths;
-}
-
 // Whether a name has one of the words, delimited by non-letters.
 bool HasWord(std::string_view family, std::span<const std::string_view> words) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
@@ -216,6 +203,19 @@ std::string NameFolderOfDepthIn(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<fs::path> FilesIn(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error, unknown;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (!it->is_directory(unknown)) paths.push_back(it->path());
+  }
+  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  std::sort(paths.begin(), paths.end(), [](const fs::path& a, const fs::path& b) {
+    return NaturalLess(a.filename().string(), b.filename().string());
+  });
+  return paths;
+}
 
 bool IsPngName(const fs::path& path) {
   return LowerCaseExtension(path) == ".png" && !path.filename().string().starts_with(".");

@@ -35,6 +35,10 @@ std::vector<ListedFrame> FramesByList(const std::filesystem::path& folder, size_
 /// Notes the unit, in seconds, of the times in `what` if it was guessed.
 void NoteUnit(const std::string& what, double unit_s, const SourceOptions& options);
 
+/// The files of a folder, not its folders, in natural order of their names. Throws InputError if it
+/// cannot be read.
+std::vector<std::filesystem::path> FilesIn(const std::filesystem::path& folder);
+
 /// Whether a file is a PNG by its extension, in any case, and not a macOS resource file.
 bool IsPngName(const std::filesystem::path& path);
 

@@ -162,6 +162,7 @@ TEST(Ros2Folder, IsOneBagOfAllItsFilesInOrder) {
     test::SqliteWriter(folder / ("bag_" + std::to_string(i) + ".db3"))
         .Write({ImageOf(100 + i, static_cast<uint16_t>(1000 + i))});
   }
+  std::ofstream(folder / "._bag_0.db3") << "a resource file of macOS";
   EXPECT_TRUE(IsRecording(folder.path()));
   const std::string name = folder.path().string() + "#/camera/depth/image_raw";
   for (const std::string& source : {folder.path().string(), name}) {
