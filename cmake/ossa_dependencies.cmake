@@ -2,6 +2,7 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenCVLite REQUIRED)  # targets opencv_core, opencv_imgproc
 find_package(PNG REQUIRED)
+find_package(TIFF 4.5 REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(Ceres 2.1 REQUIRED)
 find_package(TBB REQUIRED)
@@ -34,6 +35,11 @@ pkg_check_modules(sqlite3 QUIET IMPORTED_TARGET sqlite3)  # bags of ROS 2
 pkg_check_modules(lz4 QUIET IMPORTED_TARGET liblz4)
 if(NOT sqlite3_FOUND OR NOT lz4_FOUND)
   message(STATUS "Reading .db3 and .mcap is left out: libsqlite3-dev or liblz4-dev is not installed")
+endif()
+pkg_check_modules(matio QUIET IMPORTED_TARGET matio)  # arrays
+pkg_check_modules(hdf5 QUIET IMPORTED_TARGET hdf5)
+if(NOT matio_FOUND OR NOT hdf5_FOUND)
+  message(STATUS "Reading arrays is left out: libmatio-dev or libhdf5-dev is not installed")
 endif()
 find_package(TinyGLTF QUIET CONFIG)  # skinned people in motion
 if(NOT TinyGLTF_FOUND)

@@ -10,6 +10,7 @@
 
 #include "depth/base/error.h"
 #include "depth/base/lower_case.h"
+#include "depth/image/depth_file.h"
 #include "depth/sensor/frame_names.h"
 #include "depth/sensor/source_internal.h"
 
@@ -22,7 +23,8 @@ constexpr double kFramePeriod_s = 1.0 / 30.0;  // without any times: by conventi
 
 // The files of a folder, sorted by use.
 struct Sorted {
-  std::vector<fs::path> depth;  // in natural order
+  std::vector<fs::path> depth;      // in natural order
+  std::vector<fs::path> duplicate;  // in other formats
   std::vector<fs::path> other;
 };
 
@@ -54,20 +56,35 @@ bool HasWord(std::string_view family, std::span<const std::string_view> words) {
 enum class Rank { kDepth, kUnnamed, kNamedOther };
 
 // The kind of image by its name: depth*.png is preferred over ir*.png beside it.
-Rank RankByName(const fs::path& png) {
+Rank RankByName(const fs::path& image) {
   constexpr std::array<std::string_view, 16> kOthers = {
       "ir",  "infrared", "color", "colour", "rgb",   "amp",   "amplitude", "intensity",
       "cnf", "mask",     "label", "labels", "index", "users", "conf",      "confidence"};
-  const std::string family = StripNumbers(png.stem().string());
+  const std::string family = StripNumbers(image.stem().string());
   if (family.find("depth") != std::string::npos) return Rank::kDepth;
   return HasWord(family, kOthers) ? Rank::kNamedOther : Rank::kUnnamed;
+}
+
+// Of images in several formats, which show the same, those in the commonest, else in the first by
+// name: .npy is before .png.
+void KeepOneFormat(Sorted& sorted) {
+  std::map<std::string, size_t> count;
+  for (const fs::path& path : sorted.depth) ++count[LowerCaseExtension(path)];
+  if (count.size() < 2) return;
+  const auto commonest = std::max_element(
+      count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto others = std::stable_partition(
+      sorted.depth.begin(), sorted.depth.end(),
+      [&](const fs::path& path) { return LowerCaseExtension(path) == commonest->first; });
+  std::move(others, sorted.depth.end(), std::back_inserter(sorted.duplicate));
+  sorted.depth.erase(others, sorted.depth.end());
 }
 
 Sorted SortOut(const fs::path& folder) {
   Sorted sorted;
   std::map<Rank, std::vector<fs::path>> ranked;
   for (fs::path& path : FilesIn(folder)) {
-    if (!IsPngName(path) || IsOtherPng(path)) {
+    if (!IsDepthFileName(path) || IsOtherImage(path)) {
       if (!IsExpectedBeside(path)) sorted.other.push_back(std::move(path));
     } else {
       ranked[RankByName(path)].push_back(std::move(path));
@@ -77,6 +94,7 @@ Sorted SortOut(const fs::path& folder) {
     auto& to = sorted.depth.empty() ? sorted.depth : sorted.other;
     std::move(paths.begin(), paths.end(), std::back_inserter(to));
   }
+  KeepOneFormat(sorted);
   return sorted;
 }
 
@@ -91,6 +109,14 @@ void NoteIgnored(const fs::path& folder, const std::vector<fs::path>& others,
     text += (i > 0 ? ", " : "") + others[i].filename().string();
   }
   options.note(NoteKind::kInfo, text + (others.size() > kNamed ? ", ..." : ""));
+}
+
+void NoteDuplicates(const fs::path& folder, const Sorted& sorted, const SourceOptions& options) {
+  if (sorted.duplicate.empty() || !options.note) return;
+  options.note(NoteKind::kInfo,
+               folder.string() + ": images in another format are ignored, such as " +
+                   sorted.duplicate.front().filename().string() + ", because there are more like " +
+                   sorted.depth.front().filename().string() + " or as many");
 }
 
 // Notes if there seem to be two images per frame, such as depth_1.png and depth_filled_1.png. Names
@@ -115,7 +141,7 @@ ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
   for (const ListedFrame& frame : frames) {
     ImageSize size;
     try {
-      size = ReadDepthPngSize(frame.path);
+      size = ReadDepthFileSize(frame.path);
     } catch (const InputError&) {
       continue;  // reported when it is read
     }
@@ -124,7 +150,7 @@ ImageSize CommonSize(const std::vector<ListedFrame>& frames) {
     if (found == counts.end()) found = counts.insert(counts.end(), {size, 0});
     ++found->second;
   }
-  if (counts.empty()) return ReadDepthPngSize(frames.front().path);  // throws with the reason
+  if (counts.empty()) return ReadDepthFileSize(frames.front().path);  // throws with the reason
   return std::max_element(counts.begin(), counts.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
@@ -159,9 +185,9 @@ std::vector<ListedFrame> FramesByName(const fs::path& folder, const std::vector<
 bool HasDepthImage(const fs::path& folder) {
   try {
     const std::vector<fs::path> files = FilesIn(folder);
-    const auto png = std::find_if(files.begin(), files.end(), IsPngName);
-    if (png == files.end()) return false;
-    ReadDepthPngSize(*png);
+    const auto image = std::find_if(files.begin(), files.end(), IsDepthFileName);
+    if (image == files.end()) return false;
+    ReadDepthFileSize(*image);
     return true;
   } catch (const InputError&) {  // another kind of image, or an unreadable folder
     return false;
@@ -184,8 +210,8 @@ std::string NameFolderOfDepthIn(const fs::path& folder) {
 }
 
 [[noreturn]] void FailEmpty(const fs::path& folder, const Sorted& sorted) {
-  const auto png = std::find_if(sorted.other.begin(), sorted.other.end(), IsPngName);
-  if (png != sorted.other.end()) ReadDepthPngSize(*png);  // throws with the reason
+  const auto image = std::find_if(sorted.other.begin(), sorted.other.end(), IsDepthFileName);
+  if (image != sorted.other.end()) ReadDepthFileSize(*image);  // throws with the reason
   if (fs::is_directory(folder / "shards")) {
     throw InputError(
         folder.string() +
@@ -194,11 +220,13 @@ std::string NameFolderOfDepthIn(const fs::path& folder) {
   }
   for (const fs::path& path : sorted.other) {
     if (const char* how = DescribeConversion(path)) {
-      throw InputError(path.string() + ": expected 16-bit PNGs, found " + how);
+      throw InputError(path.string() + ": expected depth images, such as 16-bit PNGs, found " +
+                       how);
     }
   }
   const std::string below = NameFolderOfDepthIn(folder);
-  throw InputError(folder.string() + ": expected a folder of 16-bit PNGs, found none in it" +
+  throw InputError(folder.string() +
+                   ": expected a folder of depth images, such as 16-bit PNGs, found none in it" +
                    (below.empty() ? "" : ", but in " + below));
 }
 
@@ -215,10 +243,6 @@ std::vector<fs::path> FilesIn(const fs::path& folder) {
     return NaturalLess(a.filename().string(), b.filename().string());
   });
   return paths;
-}
-
-bool IsPngName(const fs::path& path) {
-  return LowerCaseExtension(path) == ".png" && !path.filename().string().starts_with(".");
 }
 
 FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& options) {
@@ -239,6 +263,7 @@ FolderListing ListDepthFolder(const fs::path& folder, const SourceOptions& optio
     NoteKinds(folder, sorted.depth, options);
     listing.frames = FramesByName(folder, sorted.depth, options);
   }
+  NoteDuplicates(folder, sorted, options);
   NoteIgnored(folder, sorted.other, options);
   listing.size = CommonSize(listing.frames);
   return listing;

@@ -39,7 +39,4 @@ void NoteUnit(const std::string& what, double unit_s, const SourceOptions& optio
 /// cannot be read.
 std::vector<std::filesystem::path> FilesIn(const std::filesystem::path& folder);
 
-/// Whether a file is a PNG by its extension, in any case, and not a macOS resource file.
-bool IsPngName(const std::filesystem::path& path);
-
 }  // namespace ossa::depth

@@ -6,7 +6,7 @@
 
 #include "depth/base/error.h"
 #include "depth/image/camera_io.h"
-#include "depth/image/depth_png.h"
+#include "depth/image/depth_file.h"
 #include "depth/sensor/folder_listing_internal.h"
 #include "depth/sensor/source_internal.h"
 #include "depth/sensor/stray_scanner.h"
@@ -65,7 +65,7 @@ class FolderSource final : public FrameSource {
 
  private:
   Image<uint16_t> ReadFrame(const fs::path& path) const {
-    Image<uint16_t> image = ReadDepthPng(path);
+    Image<uint16_t> image = ReadDepthFile(path);
     const ImageSize size{image.width, image.height};
     if (size == listing_.size) {
       if (has_confidence_) RemoveUnconfident(fs::absolute(path).lexically_normal(), image);
@@ -184,13 +184,6 @@ std::optional<Camera> CameraOfOthers(const fs::path& folder, ImageSize size,
   return std::nullopt;
 }
 
-std::optional<Camera> CameraFileIn(const fs::path& folder, ImageSize size,
-                                   const SourceOptions& options) {
-  const fs::path file = folder / "camera.json";
-  return fs::exists(file) ? ReadStatedCamera(file, size, options)
-                          : CameraOfOthers(folder, size, options);
-}
-
 // The camera by option, else by camera.json or another file in the folder, else by image size.
 Camera ChooseCamera(const fs::path& folder, const std::optional<Camera>& stated, ImageSize size,
                     const SourceOptions& options) {
@@ -220,7 +213,9 @@ std::unique_ptr<FrameSource> OpenDatasetFrames(FolderListing frames, const fs::p
                                         ChooseCamera(folder, stated, size, options), options);
 }
 
-FolderListing OneFrame(const fs::path& png) { return {{{png, 0, 0.0}}, ReadDepthPngSize(png)}; }
+FolderListing OneFrame(const fs::path& image) {
+  return {{{image, 0, 0.0}}, ReadDepthFileSize(image)};
+}
 
 }  // namespace
 
@@ -228,12 +223,19 @@ std::unique_ptr<FrameSource> OpenFolder(const fs::path& folder, const SourceOpti
   return OpenFrames(ListDepthFolder(folder, options), folder, options);
 }
 
-std::unique_ptr<FrameSource> OpenStill(const fs::path& png, const SourceOptions& options) {
-  const fs::path folder = fs::absolute(png).lexically_normal().parent_path();
+std::unique_ptr<FrameSource> OpenStill(const fs::path& image, const SourceOptions& options) {
+  const fs::path folder = fs::absolute(image).lexically_normal().parent_path();
   const fs::path above = folder.parent_path();
   return IsDataSet(above) && folder == above / "depth"
-             ? OpenDatasetFrames(OneFrame(png), above, options)
-             : OpenFrames(OneFrame(png), folder, options);
+             ? OpenDatasetFrames(OneFrame(image), above, options)
+             : OpenFrames(OneFrame(image), folder, options);
+}
+
+std::optional<Camera> CameraFileIn(const fs::path& folder, ImageSize size,
+                                   const SourceOptions& options) {
+  const fs::path file = folder / "camera.json";
+  return fs::exists(file) ? ReadStatedCamera(file, size, options)
+                          : CameraOfOthers(folder, size, options);
 }
 
 bool IsCentreNear(const Camera& camera) {
@@ -251,7 +253,7 @@ bool HoldsDepthFolder(const fs::path& folder) {
   const fs::path depth = folder / "depth";
   if (!fs::is_directory(depth, none)) return false;
   for (fs::directory_iterator it(folder, none), end; !none && it != end; it.increment(none)) {
-    if (IsPngName(it->path())) return false;
+    if (IsDepthFileName(it->path())) return false;
   }
   const std::vector<fs::path> files = CameraFilesOfOthers(depth);
   const fs::path inside = files.front().parent_path();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "depth/base/error.h"
+#include "depth/image/depth_file.h"
 #include "depth/sensor/depth_list.h"
 #include "depth/sensor/folder_listing_internal.h"
 #include "depth/sensor/stray_scanner.h"
@@ -111,7 +112,7 @@ std::vector<ListedFrame> FramesByList(const fs::path& folder, size_t images,
         list.file.string() + ": expected seconds and files that are there, found " + list.first;
     if (images == 0) throw InputError(what);
     // With a list of images the frames lose their times.
-    const bool has_times = IsPngName(list.frames.front().path);
+    const bool has_times = IsDepthFileName(list.frames.front().path);
     if (options.note) {
       options.note(has_times ? NoteKind::kWarning : NoteKind::kInfo,
                    what + " and the like: ignored");

@@ -10,8 +10,9 @@
 
 #include "depth/base/error.h"
 #include "depth/base/lower_case.h"
-#include "depth/sensor/bag_name_internal.h"
+#include "depth/image/depth_file.h"
 #include "depth/sensor/folder_listing_internal.h"
+#include "depth/sensor/recording_name_internal.h"
 #include "depth/sensor/source_internal.h"
 
 namespace ossa::depth {
@@ -47,7 +48,7 @@ const char* DescribeConversion(const std::filesystem::path& file) {
       "by 'ffmpeg -i FILE -pix_fmt gray16be FOLDER/%06d.png'";
   constexpr const char* kPacked = "a compressed file: 'zstd -d FILE' unpacks it";
   constexpr const char* kImage =
-      "an image that is no PNG: ImageMagick's 'mogrify -format png FILE' keeps its 16 bits (of "
+      "an image that is not read: ImageMagick's 'mogrify -format png FILE' keeps its 16 bits (of "
       "floats Python's ossa.Tracker takes whole millimetres, as uint16)";
   constexpr const char* kArray =
       "an array: Python's ossa.Tracker takes it once it is loaded, millimetres as uint16";
@@ -66,13 +67,11 @@ const char* DescribeConversion(const std::filesystem::path& file) {
   constexpr const char* kZed = "a ZED recording: its SDK's ZED_SVO_Export makes 16-bit PNGs of it";
   using How = std::pair<std::string_view, const char*>;
   constexpr std::array kHow = {
-      How{".xef", kXef},    How{".mp4", kVideo},  How{".avi", kVideo},  How{".mov", kVideo},
-      How{".webm", kVideo}, How{".m4v", kVideo},  How{".wmv", kVideo},  How{".zstd", kPacked},
-      How{".tif", kImage},  How{".tiff", kImage}, How{".pgm", kImage},  How{".npy", kArray},
-      How{".npz", kArray},  How{".mat", kArray},  How{".h5", kArray},   How{".hdf5", kArray},
-      How{".pkl", kArray},  How{".raw", kRaw},    How{".bin", kRaw},    How{".exr", kFloats},
-      How{".ply", kCloud},  How{".pcd", kCloud},  How{".svo", kZed},    How{".svo2", kZed},
-      How{".sens", kSens},  How{".klg", kKlg},    How{".pfm", kFloats}, How{".jp2", kImage}};
+      How{".xef", kXef},    How{".mp4", kVideo}, How{".avi", kVideo},  How{".mov", kVideo},
+      How{".webm", kVideo}, How{".m4v", kVideo}, How{".wmv", kVideo},  How{".zstd", kPacked},
+      How{".pkl", kArray},  How{".raw", kRaw},   How{".bin", kRaw},    How{".exr", kFloats},
+      How{".ply", kCloud},  How{".pcd", kCloud}, How{".svo", kZed},    How{".svo2", kZed},
+      How{".sens", kSens},  How{".klg", kKlg},   How{".pfm", kFloats}, How{".jp2", kImage}};
   const auto found = std::find_if(
       kHow.begin(), kHow.end(),
       [extension = LowerCaseExtension(file)](const auto& how) { return how.first == extension; });
@@ -97,14 +96,14 @@ bool HoldsOnlyForeignImages(const std::filesystem::path& folder) {
 
 bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
-    const std::filesystem::path file = BagName(path.string()).file;
+    const std::filesystem::path file = RecordingName(path.string()).file;
     const std::string extension = LowerCaseExtension(file);
     return IsOniName(path) || extension == ".mkv" || IsRos1Name(file) || IsRos2Bag(file) ||
-           IsPngName(path) || DescribeConversion(file) != nullptr;
+           IsDepthFileName(path) || IsArrayName(file) || DescribeConversion(file) != nullptr;
   }
   const std::filesystem::directory_iterator entries(path);
   const bool has_depth = std::any_of(begin(entries), end(entries), [](const auto& entry) {
-    return IsPngName(entry.path()) || entry.path().filename() == "depth.txt";
+    return IsDepthFileName(entry.path()) || entry.path().filename() == "depth.txt";
   });
   return has_depth || HoldsDepthFolder(path) || HoldsOnlyForeignImages(path) || IsRos2Bag(path);
 }
@@ -187,23 +186,24 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
   if (IsOniName(path)) {
     return Prepared(source, OpenOniFile(path, options), UnitStated::kYes, options);
   }
-  const BagName bag(source);
-  const std::string extension = LowerCaseExtension(bag.file);
-  if (std::filesystem::exists(bag.file, error)) {
-    if (extension == ".mkv") return OpenMkvFile(path, options);
-    if (IsRos1Name(bag.file)) return OpenBagFile(bag.file, bag.topic, options);
-    if (IsRos2Bag(bag.file)) return OpenRos2Bag(bag.file, bag.topic, options);
-    if (const char* how = DescribeConversion(bag.file)) {
+  const auto [file, part] = RecordingName(source);
+  if (std::filesystem::exists(file, error)) {
+    if (LowerCaseExtension(file) == ".mkv") return OpenMkvFile(path, options);
+    if (IsRos1Name(file)) return OpenBagFile(file, part, options);
+    if (IsRos2Bag(file)) return OpenRos2Bag(file, part, options);
+    if (IsArrayName(file)) return OpenArrayFile(file, part, options);
+    if (const char* how = DescribeConversion(file)) {
       throw InputError(source + ": expected depth images, found " + how);
     }
   }
-  if (IsPngName(path) && std::filesystem::exists(path, error)) {
+  if (IsDepthFileName(path) && std::filesystem::exists(path, error)) {
     return Prepared(source, OpenStill(path, options), UnitStated::kNo, options);
   }
   throw InputError(
       source +
       ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, FILE.db3, "
-      "FILE.mcap, a 16-bit PNG or a folder of them, or a data set, found " +
+      "FILE.mcap, arrays (.npy, .npz, .mat, .h5), a 16-bit PNG, TIFF or PGM, a folder of them, or "
+      "a data set, found " +
       (std::filesystem::exists(path, error) ? "a file of another name" : "no such file or folder"));
 }
 

@@ -1,22 +1,24 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "depth/image/depth_png.h"
 #include "depth/sensor/frame_source.h"
 #include "depth/sensor/oni_format_internal.h"
 
 namespace ossa::depth {
 
-/// A folder of 16-bit PNGs, ordered and timed by ListDepthFolder. Missing frame numbers count as
-/// dropped frames, and time passes. Frames that are unreadable or of another size than most are
-/// skipped, counted as dropped, and reported at the end; if there are no others, the first one's
-/// InputError is thrown.
+/// A folder of depth images (IsDepthFileName), ordered and timed by ListDepthFolder. Missing frame
+/// numbers count as dropped frames, and time passes. Frames that are unreadable or of another size
+/// than most are skipped, counted as dropped, and reported at the end; if there are no others, the
+/// first one's InputError is thrown.
 std::unique_ptr<FrameSource> OpenFolder(const std::filesystem::path& folder,
                                         const SourceOptions& options);
 
-/// One 16-bit PNG: a recording of one frame. The camera is that of its folder or data set.
-std::unique_ptr<FrameSource> OpenStill(const std::filesystem::path& png,
+/// One depth image: a recording of one frame. The camera is that of its folder or data set.
+std::unique_ptr<FrameSource> OpenStill(const std::filesystem::path& image,
                                        const SourceOptions& options);
 
 /// Whether the principal point is as near to the middle of the images as that of depth cameras.
@@ -28,7 +30,7 @@ std::unique_ptr<FrameSource> OpenDataSet(const std::filesystem::path& folder,
                                          const SourceOptions& options);
 
 /// Whether the images of this folder are in its folder `depth`, as in a scan of ScanNet or a
-/// recording of Open3D: the camera of that folder is here or in `intrinsic`, and there is no PNG.
+/// recording of Open3D: the camera of that folder is here or in `intrinsic`, and there is no image.
 bool HoldsDepthFolder(const std::filesystem::path& folder);
 
 /// An .oni recording, played by OpenNI2 in a child process: if a file makes the library crash or
@@ -45,10 +47,20 @@ std::unique_ptr<FrameSource> OpenMkvFile(const std::filesystem::path& path,
 std::unique_ptr<FrameSource> OpenBagFile(const std::filesystem::path& path,
                                          const std::string& topic, const SourceOptions& options);
 
-/// A ROS 2 bag, a file or a folder (bag_name_internal.h), by a reader of .db3 and .mcap in a child
-/// process.
+/// A ROS 2 bag, a file or a folder (recording_name_internal.h), by a reader of .db3 and .mcap in a
+/// child process.
 std::unique_ptr<FrameSource> OpenRos2Bag(const std::filesystem::path& path,
                                          const std::string& topic, const SourceOptions& options);
+
+/// Arrays of NumPy, MATLAB or HDF5 (IsArrayName); array "": chosen by its name and shape. Read in a
+/// child process. The camera beside the file is that of a still.
+std::unique_ptr<FrameSource> OpenArrayFile(const std::filesystem::path& path,
+                                           const std::string& array, const SourceOptions& options);
+
+/// The camera by a file in a folder of such images: camera.json, or as others have it; none without
+/// one. Throws InputError for a damaged camera.json.
+std::optional<Camera> CameraFileIn(const std::filesystem::path& folder, ImageSize size,
+                                   const SourceOptions& options);
 
 /// `options.camera` for images of this size. Presets describe the unmirrored sensor; for mirrored
 /// images they are mirrored, like all cameras of such images.

@@ -1,5 +1,6 @@
-// Recordings that a program of their own reads by somebody's library, of the kind that the first
-// byte chooses. Whatever that comes to, who asked gets images or an InputError of one line.
+// Recordings that a program of their own reads by somebody's library, and images, of the kind that
+// the first byte chooses. Whatever that comes to, who asked gets images or an InputError of one
+// line.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -12,7 +13,8 @@
 
 namespace {
 
-constexpr std::array<const char*, 4> kKinds = {"x.bag", "x.mkv", "x.db3", "x.mcap"};
+constexpr std::array<const char*, 10> kKinds = {"x.bag", "x.mkv", "x.db3", "x.mcap", "x.npy",
+                                                "x.npz", "x.mat", "x.h5",  "x.tif",  "x.pgm"};
 
 // The byte that stands for a file's kind.
 char KindOf(const std::string& name) {

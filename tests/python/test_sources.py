@@ -152,3 +152,68 @@ def test_camera_search_identifies_the_camera_by_the_people(shared, models):
     assert source.camera.fx == pytest.approx(119.05, rel=0.02)  # as its README says
     assert "that camera is used" in source.notes[-1]
     assert sum(len(frame.bodies) == 1 for frame in frames) > 0.9 * len(frames)
+
+
+def depths_of(source, **options):
+    with ossa.open(source, **options) as opened:
+        return [(depth_mm, time_s) for depth_mm, _, time_s in opened]
+
+
+@pytest.fixture
+def images():
+    random = np.random.default_rng(1)
+    return random.integers(500, 5000, (4, 48, 64), dtype=np.uint16)
+
+
+def expect_images(source, images):
+    read = depths_of(source)
+    assert len(read) == len(images)
+    assert all((depth_mm == image).all() for (depth_mm, _), image in zip(read, images))
+
+
+def test_numpys_files_are_sources(images, tmp_path):
+    np.save(tmp_path / "a.npy", images)
+    np.save(tmp_path / "metres.npy", images / 1000)
+    np.save(tmp_path / "fortran.npy", np.asfortranarray(images))
+    np.savez(tmp_path / "a.npz", depth=images, color=np.zeros((4, 48, 64, 3), np.uint8))
+    np.savez_compressed(tmp_path / "sequence.npz", *images)
+    for name in ["a.npy", "metres.npy", "fortran.npy", "a.npz", "sequence.npz"]:
+        expect_images(tmp_path / name, images)
+
+
+def test_folder_of_numpys_files_is_a_source(images, tmp_path):
+    for i, image in enumerate(images):
+        np.save(tmp_path / f"depth_{i}.npy", image / 1000)
+    expect_images(tmp_path, images)
+
+
+def test_times_in_an_archive_are_those_of_the_images(images, tmp_path):
+    np.savez(tmp_path / "a.npz", depth=images, timestamps=1e9 + np.arange(4) * 0.25)
+    assert [time_s for _, time_s in depths_of(tmp_path / "a.npz")] == [0, 0.25, 0.5, 0.75]
+
+
+def test_matlabs_files_are_sources(images, tmp_path):
+    matlab = pytest.importorskip("scipy.io")
+    columns = np.moveaxis(images, 0, 2)
+    matlab.savemat(tmp_path / "a.mat", {"d_depth": columns})
+    matlab.savemat(tmp_path / "packed.mat", {"d_depth": columns / 1000}, do_compression=True)
+    for name in ["a.mat", "packed.mat"]:
+        expect_images(tmp_path / name, images)
+
+
+def test_hdf5_files_are_sources(images, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file.create_dataset("camera/depth", data=images, compression="gzip", chunks=True)
+        file["half"] = (images / 1000).astype(np.float16)
+    expect_images(tmp_path / "a.h5", images)
+    half = depths_of(f"{tmp_path}/a.h5#half")
+    # Half floats of 4 to 5 m are 4 mm apart.
+    assert all(abs(depth_mm.astype(int) - image).max() <= 2 for (depth_mm, _), image in zip(half, images))
+
+
+def test_tiff_images_are_sources(images, tmp_path):
+    pillow = pytest.importorskip("PIL.Image")
+    for i, image in enumerate(images):
+        pillow.fromarray(image).save(tmp_path / f"{i}.tif", compression="tiff_lzw")
+    expect_images(tmp_path, images)

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "depth/sensor/frame_source.h"
 #include "tests/depth/sensor/mkv_writer.h"
@@ -15,6 +16,9 @@
 #ifdef OSSA_TEST_ROSBAG2
 #include "tests/depth/sensor/ros2_writer.h"
 #endif
+#ifdef OSSA_TEST_ARRAYS
+#include "tests/depth/sensor/array_writer.h"
+#endif
 
 namespace ossa::test {
 namespace {
@@ -23,12 +27,10 @@ bool HasReader(const char* program) {
   return std::filesystem::exists(BinaryFolder() / "lib/openni2/reader" / program);
 }
 
-#if defined(OSSA_TEST_ROSBAG) || defined(OSSA_TEST_ROSBAG2)
 std::string ContentOf(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
-#endif
 
 #ifdef OSSA_TEST_ROSBAG
 DamageSample Bag(const std::string& name, rosbag::compression::CompressionType compression) {
@@ -75,6 +77,28 @@ DamageSample Mcap(const std::string& name, const McapForm& form) {
 }
 #endif
 
+#ifdef OSSA_TEST_ARRAYS
+// Three images of 20 x 16, row by row; the order does not matter here.
+std::vector<DamageSample> Arrays() {
+  const Shape shape = {3, 16, 20};
+  std::vector<uint16_t> numbers;
+  for (int i = 0; i < 3; ++i) {
+    const std::vector<uint16_t> depths = ExampleFrame(i, 20, 16).depth_mm;
+    numbers.insert(numbers.end(), depths.begin(), depths.end());
+  }
+  const std::string npy = NpyBytes("<u2", shape, numbers);
+  const TemporaryFolder folder;
+  WriteNpz(folder / "x.npz", {{"depth", npy}}, true);
+  MatWriter(folder / "x.mat").Add("depth", MAT_C_UINT16, MAT_T_UINT16, {16, 20, 3}, numbers);
+  Hdf5Writer(folder / "x.h5").Add("depth", H5T_STD_U16LE, shape, numbers);
+  std::vector<DamageSample> samples = {{"x.npy", npy, ReadRecording}};
+  for (const char* name : {"x.npz", "x.mat", "x.h5"}) {
+    samples.push_back({name, ContentOf(folder / name), ReadRecording});
+  }
+  return samples;
+}
+#endif
+
 }  // namespace
 
 Reading ReadRecording(const std::filesystem::path& path) {
@@ -110,6 +134,10 @@ std::vector<DamageSample> PlainRecordings() {
   samples.push_back(Mcap("x.mcap", {.has_checksum = false}));
   samples.push_back(Mcap("lz4.mcap", {.compression = "lz4"}));
 #endif
+#ifdef OSSA_TEST_ARRAYS
+  for (DamageSample& sample : Arrays()) samples.push_back(std::move(sample));
+#endif
+  for (DamageSample& sample : PlainImages()) samples.push_back(std::move(sample));
   return samples;
 }
 

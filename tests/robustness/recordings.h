@@ -14,4 +14,7 @@ Reading ReadRecording(const std::filesystem::path& path);
 /// elsewhere must be detected.
 std::vector<DamageSample> PlainRecordings();
 
+/// Images of their kinds without a checksum over all: PGM, TIFF. PlainRecordings has them too.
+std::vector<DamageSample> PlainImages();
+
 }  // namespace ossa::test

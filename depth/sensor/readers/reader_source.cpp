@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "depth/base/error.h"
-#include "depth/sensor/bag_name_internal.h"
 #include "depth/sensor/openni2/runtime_folder.h"
 #include "depth/sensor/readers/reader_pipe_internal.h"
+#include "depth/sensor/recording_name_internal.h"
 #include "depth/sensor/recording_pipe_internal.h"
 #include "depth/sensor/sensor_clock.h"
 #include "depth/sensor/source_internal.h"
@@ -21,7 +21,8 @@ using std::chrono::milliseconds;
 // The reader program of a file type, and the library that it needs.
 struct Reader {
   const char* program;
-  const char* library;  // Debian package
+  const char* library;   // Debian package
+  fs::path folder = {};  // where a camera file may be; "": in none
 };
 
 fs::path FindProgram(const Reader& reader, const std::string& name) {
@@ -51,7 +52,10 @@ class ReaderSource final : public FrameSource {
     if (options.camera) {
       hello_.camera = ChosenCamera(options, width, height);
     } else if (!hello_.is_camera_stated) {
-      hello_.camera = CameraByImageSize(name_, width, height, options);
+      const auto beside = reader.folder.empty()
+                              ? std::nullopt
+                              : CameraFileIn(reader.folder, {width, height}, options);
+      hello_.camera = beside ? *beside : CameraByImageSize(name_, width, height, options);
     }
     CheckCamera(hello_.camera, name_ + ": camera");
   }
@@ -142,6 +146,14 @@ std::unique_ptr<FrameSource> OpenBagFile(const fs::path& path, const std::string
   const std::string name = path.string() + (topic.empty() ? "" : "#" + topic);
   return OpenWith({"ossa_bag_reader", "librosbag-storage4d"}, name,
                   {fs::absolute(path).string(), topic}, options);
+}
+
+std::unique_ptr<FrameSource> OpenArrayFile(const fs::path& path, const std::string& array,
+                                           const SourceOptions& options) {
+  const std::string name = path.string() + (array.empty() ? "" : "#" + array);
+  const fs::path whole = fs::absolute(path);
+  return OpenWith({"ossa_array_reader", "libmatio11", whole.parent_path()}, name,
+                  {whole.string(), array}, options);
 }
 
 std::unique_ptr<FrameSource> OpenRos2Bag(const fs::path& path, const std::string& topic,

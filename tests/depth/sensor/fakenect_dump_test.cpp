@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string>
 
+#include "depth/sensor/frame_source.h"
+#include "tests/depth/sensor/frames_of.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/refused.h"
 #include "tests/support/temporary_folder.h"
@@ -33,6 +35,19 @@ TEST(FakenectDump, BorrowedImagesGiveTheSameDumpAsCopies) {
   FakenectDump(folder / "b", copy.camera).Write(borrowed);
   EXPECT_FALSE(PictureIn(folder / "a").empty());
   EXPECT_EQ(PictureIn(folder / "a"), PictureIn(folder / "b"));
+}
+
+TEST(FakenectDump, IsReadAsAFolder) {
+  const test::TemporaryFolder folder;
+  FakenectDump dump(folder / "a", test::ExampleFrame(0, 640, 480).camera);
+  for (const int i : {0, 1}) dump.Write(test::ExampleFrame(i, 640, 480));
+  dump.Finish();
+  const auto frames = test::FramesOf(*OpenSource(folder / "a"));
+  ASSERT_EQ(frames.size(), 2u);
+  for (const int i : {0, 1}) {
+    EXPECT_EQ(frames[static_cast<size_t>(i)].depth_mm, test::ExampleFrame(i, 640, 480).depth_mm);
+    EXPECT_NEAR(frames[static_cast<size_t>(i)].time_s, i / 30.0, 1e-5);
+  }
 }
 
 TEST(FakenectDump, RefusesAnImageOfFewerPixelsThanItsCamera) {

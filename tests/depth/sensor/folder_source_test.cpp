@@ -53,6 +53,35 @@ TEST(FolderSource, CountsMissingNumbersAsDroppedFrames) {
   EXPECT_DOUBLE_EQ(third.frame.time_s, 4 / 30.0);
 }
 
+// A PGM whose pixels all have one value.
+void WritePgm(const std::filesystem::path& path, uint16_t value) {
+  std::ofstream file(path, std::ios::binary);
+  file << "P5 8 6 65535\n";
+  for (int i = 0; i < 8 * 6; ++i) {
+    file << static_cast<char>(value >> 8) << static_cast<char>(value & 255);
+  }
+}
+
+TEST(FolderSource, ReadsImagesOfOtherFormats) {
+  const TemporaryFolder folder;
+  for (const int i : {9, 10, 11}) {
+    WritePgm(folder / ("depth_" + std::to_string(i) + ".pgm"), static_cast<uint16_t>(1000 + i));
+  }
+  const auto source = OpenSource(folder.path().string());
+  EXPECT_EQ(ValuesOf(*source), (std::vector<uint16_t>{1009, 1010, 1011}));
+  EXPECT_EQ(ValuesOf(*OpenSource(folder / "depth_10.pgm")), (std::vector<uint16_t>{1010}));
+}
+
+TEST(FolderSource, ReadsTheCommonestOfSeveralFormats) {
+  const TemporaryFolder folder;
+  for (const int i : {0, 1}) WritePgm(folder / (std::to_string(i) + ".pgm"), 1000);
+  for (const int i : {0, 1, 2}) WriteFrame(folder / (std::to_string(i) + ".png"), 2000);
+  Notes notes;
+  EXPECT_EQ(ValuesOf(*OpenSource(folder.path(), notes.Options())),
+            (std::vector<uint16_t>{2000, 2000, 2000}));
+  EXPECT_TRUE(notes.Tell("images in another format are ignored, such as 0.pgm"));
+}
+
 TEST(FolderSource, MaximumValueIsNoReading) {
   const TemporaryFolder folder;
   for (const auto& [name, value] : {std::pair("0.png", 65535), {"1.png", 65534}, {"2.png", 9}}) {

@@ -72,11 +72,10 @@ TEST(OpenNi1Oni, IsRead) {
 TEST(OtherRecordings, AreRefusedWithAWayToConvertThem) {
   const test::TemporaryFolder folder;
   const std::vector<std::pair<const char*, const char*>> cases = {
-      {"a.xef", "KinectXEFTools"},  {"a.MP4", "ffmpeg"},         {"a.zstd", "zstd -d"},
-      {"a.TIFF", "mogrify"},        {"a.npy", "ossa.Tracker"},   {"a.h5", "ossa.Tracker"},
-      {"a.exr", "of floats"},       {"a.bin", "numpy.fromfile"}, {"a.PLY", "a cloud of points"},
-      {"a.svo2", "ZED_SVO_Export"}, {"a.sens", "reader.py"},     {"a.klg", "ElasticFusion"},
-      {"a.pfm", "floats"},          {"a.jp2", "ImageMagick"}};
+      {"a.xef", "KinectXEFTools"},    {"a.MP4", "ffmpeg"},          {"a.zstd", "zstd -d"},
+      {"a.pkl", "ossa.Tracker"},      {"a.exr", "of floats"},       {"a.bin", "numpy.fromfile"},
+      {"a.PLY", "a cloud of points"}, {"a.svo2", "ZED_SVO_Export"}, {"a.sens", "reader.py"},
+      {"a.klg", "ElasticFusion"},     {"a.pfm", "floats"},          {"a.jp2", "ImageMagick"}};
   for (const auto& each : cases) {
     const auto path = folder / each.first;
     std::ofstream(path) << "x";
@@ -87,9 +86,9 @@ TEST(OtherRecordings, AreRefusedWithAWayToConvertThem) {
 
 TEST(OtherImages, AreRefusedWithAWayToConvertThem) {
   const test::TemporaryFolder folder;
-  std::ofstream(folder / "depth_0.pgm") << "P5";
+  std::ofstream(folder / "depth_0.jp2") << "x";
   test::ExpectRefused([&] { OpenSource(folder.path()); },
-                      "depth_0.pgm: expected 16-bit PNGs, found an image that is no PNG");
+                      "depth_0.jp2: expected depth images, such as 16-bit PNGs, found an image");
   EXPECT_TRUE(IsRecording(folder.path())) << "and not skeletons to ossa info";
   std::ofstream(folder / "walk.bvh") << "HIERARCHY";
   EXPECT_FALSE(IsRecording(folder.path()));

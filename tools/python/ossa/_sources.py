@@ -182,7 +182,8 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     source : str or path
         "openni:" (first device), "openni:URI", FILE.oni, FILE.mkv (Azure Kinect, Femto), a
         bag of ROS 1 or 2, RealSense or Orbbec (FILE.bag, FILE.db3, FILE.mcap, a folder) or
-        "BAG#/topic", a 16-bit PNG or a folder of them, or a data set of `ossa render`.
+        "BAG#/topic", arrays of NumPy, MATLAB or HDF5 (FILE.npy, .npz, .mat, .h5) or "FILE#name",
+        a 16-bit PNG, TIFF or PGM or a folder of them, or a data set of `ossa render`.
     camera : ossa.Camera, str or path, optional
         A preset's name, "fx,fy,cx,cy" in pixels, or a file with intrinsics (.json, .yaml, .xml,
         .txt), as of `ossa track --camera`. Left out: the source's own, else a preset by the image size, with

@@ -115,7 +115,7 @@ typedef struct {
 typedef struct ossa_source ossa_source;
 
 /* Opens a SOURCE as `ossa track` does: "openni:" for the first device, a recording's file, a folder
-   of 16-bit PNGs. options may be NULL. NULL on failure. */
+   of depth images. options may be NULL. NULL on failure. */
 ossa_source* ossa_source_open(const char* source, const ossa_source_options* options);
 void ossa_source_close(ossa_source* source);
 /* Reads the next frame into *image, waiting at most timeout_ms. Its depth_mm is valid until the

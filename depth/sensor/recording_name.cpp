@@ -1,10 +1,14 @@
+#include <algorithm>
+#include <array>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "depth/base/error.h"
 #include "depth/base/lower_case.h"
-#include "depth/sensor/bag_name_internal.h"
+#include "depth/image/depth_file.h"
 #include "depth/sensor/folder_listing_internal.h"
+#include "depth/sensor/recording_name_internal.h"
 
 namespace ossa::depth {
 namespace {
@@ -41,7 +45,7 @@ bool IsRos2Bag(const fs::path& path) {
   if (!fs::is_directory(path, none)) return IsRos2Name(path);
   const bool has_files =
       !FilesOf(path, IsRos2Name).empty() || !FilesOf(path, IsPackedRos2Name).empty();
-  return has_files && FilesOf(path, IsPngName).empty();
+  return has_files && FilesOf(path, IsDepthFileName).empty();
 }
 
 std::vector<fs::path> ListRos2Files(const fs::path& bag) {
@@ -62,13 +66,19 @@ std::vector<fs::path> ListRos2Files(const fs::path& bag) {
   return files;
 }
 
-BagName::BagName(const std::string& source) : file(source) {
+bool IsArrayName(const fs::path& path) {
+  constexpr std::array<std::string_view, 5> kExtensions = {".npy", ".npz", ".mat", ".h5", ".hdf5"};
+  return std::find(kExtensions.begin(), kExtensions.end(), LowerCaseExtension(path)) !=
+         kExtensions.end();
+}
+
+RecordingName::RecordingName(const std::string& source) : file(source) {
   const size_t mark = source.rfind('#');
   if (mark == std::string::npos) return;
-  fs::path bag = source.substr(0, mark);
-  if (!IsRos1Name(bag) && !IsRos2Bag(bag)) return;
-  file = std::move(bag);
-  topic = source.substr(mark + 1);
+  fs::path whole = source.substr(0, mark);
+  if (!IsRos1Name(whole) && !IsRos2Bag(whole) && !IsArrayName(whole)) return;
+  file = std::move(whole);
+  part = source.substr(mark + 1);
 }
 
 }  // namespace ossa::depth

@@ -17,11 +17,14 @@ bool IsRos2Bag(const std::filesystem::path& path);
 /// (without metadata.yaml, as they are copied out of their folders), or of compressed files.
 std::vector<std::filesystem::path> ListRos2Files(const std::filesystem::path& bag);
 
-/// BAG or BAG#/topic, of ROS 1 or ROS 2.
-struct BagName {
-  explicit BagName(const std::string& source);
-  std::filesystem::path file;  // the source itself if it is no bag
-  std::string topic;           // "": none is named
+/// Whether the name is that of a file of arrays: NAME.npy, .npz, .mat, .h5 or .hdf5.
+bool IsArrayName(const std::filesystem::path& path);
+
+/// BAG or BAG#/topic, of ROS 1 or ROS 2; ARRAYS or ARRAYS#name.
+struct RecordingName {
+  explicit RecordingName(const std::string& source);
+  std::filesystem::path file;  // the source itself if it is neither
+  std::string part;            // topic or array; "": none is named
 };
 
 }  // namespace ossa::depth

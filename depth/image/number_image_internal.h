@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "depth/image/depth_png.h"
+#include "depth/image/number_format.h"
+
+namespace ossa::depth {
+
+/// An image of numbers as a file holds it: row-major, height × width × channels.
+struct NumberImage {
+  ImageSize size;
+  NumberFormat format;
+  int channels = 1;
+  std::vector<uint8_t> numbers;  // empty if only the header was read
+};
+
+/// What of a file is read.
+enum class ReadPart { kHeader, kAll };
+
+/// Netpbm's binary greys (P5), high byte first; low byte first in a dump of libfreenect's fakenect,
+/// by its name, d-SECONDS-TICKS.pgm. All throw InputError that names the file.
+NumberImage ReadPgm(const std::filesystem::path& path, ReadPart part);
+/// TIFF in rows, of one image: integers and floats, in any compression of libtiff.
+NumberImage ReadTiff(const std::filesystem::path& path, ReadPart part);
+/// NumPy's .npy of an array of two dimensions longer than 1.
+NumberImage ReadNpy(const std::filesystem::path& path, ReadPart part);
+
+/// The header of an .npy file, versions 1 to 3.
+struct NpyHeader {
+  NumberFormat format;
+  bool is_fortran = false;    // the first dimension changes fastest
+  std::vector<size_t> shape;  // as NumPy prints it
+  size_t data_offset = 0;     // bytes before the numbers
+};
+
+/// "300x240x320".
+std::string ShapeText(std::span<const size_t> shape);
+
+/// The most bytes that a header needs, with its beginning.
+inline constexpr size_t kLongestNpyHeader = (size_t{64} << 10) + 12;  // by hand; NumPy's have 118
+
+/// Parses the first bytes of a file. Throws InputError, `prefix` first, for other files, and for
+/// arrays of anything but integers and floats.
+NpyHeader ParseNpyHeader(std::span<const uint8_t> bytes, const std::string& prefix);
+
+}  // namespace ossa::depth

@@ -1,0 +1,150 @@
+#include <hdf5.h>
+
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "depth/base/error.h"
+#include "depth/sensor/readers/arrays/array_file.h"
+
+namespace ossa::depth {
+namespace {
+
+// An identifier of the library, closed at the end.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept
+      : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  hid_t id() const { return id_; }
+  explicit operator bool() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+// The type in memory, which the library converts to.
+hid_t TypeOf(const NumberFormat& format) {
+  if (format.kind == NumberKind::kFloat) {
+    return format.size == 4 ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE;
+  }
+  const bool has_sign = format.kind == NumberKind::kSigned;
+  switch (format.size) {
+    case 1:
+      return has_sign ? H5T_NATIVE_INT8 : H5T_NATIVE_UINT8;
+    case 2:
+      return has_sign ? H5T_NATIVE_INT16 : H5T_NATIVE_UINT16;
+    case 4:
+      return has_sign ? H5T_NATIVE_INT32 : H5T_NATIVE_UINT32;
+    default:
+      return has_sign ? H5T_NATIVE_INT64 : H5T_NATIVE_UINT64;
+  }
+}
+
+std::optional<NumberFormat> FormatOf(hid_t type) {
+  const size_t size = H5Tget_size(type);
+  const H5T_class_t kind = H5Tget_class(type);
+  // Half floats are read as float.
+  if (kind == H5T_FLOAT) return NumberFormat{NumberKind::kFloat, size > 4 ? 8 : 4};
+  if (kind != H5T_INTEGER || size > 8) return std::nullopt;
+  const bool has_sign = H5Tget_sign(type) == H5T_SGN_2;
+  const int bytes = size == 3 ? 4 : size > 4 ? 8 : static_cast<int>(size);
+  return NumberFormat{has_sign ? NumberKind::kSigned : NumberKind::kUnsigned, bytes};
+}
+
+class Hdf5File final : public ArrayFile {
+ public:
+  explicit Hdf5File(const std::filesystem::path& path) : file_(Open(path)) {
+    if (!file_) {
+      throw InputError(IsHdf5(path)
+                           ? "expected a whole HDF5 file, found one that is cut short or damaged"
+                           : "expected an HDF5 file");
+    }
+    std::vector<std::string> names;
+    const auto keep = [](hid_t, const char* name, const H5O_info_t* info, void* kept) -> herr_t {
+      if (info->type == H5O_TYPE_DATASET)
+        static_cast<std::vector<std::string>*>(kept)->push_back(name);
+      return 0;
+    };
+    if (H5Ovisit(file_.id(), H5_INDEX_NAME, H5_ITER_NATIVE, keep, &names) < 0) {
+      throw InputError("its groups are damaged");
+    }
+    for (const std::string& name : names) Add(name);
+  }
+
+  std::vector<ArrayInfo> List() override { return arrays_; }
+
+  std::vector<uint8_t> Read(const ArrayInfo& array, size_t first, size_t count) override {
+    const Handle data(H5Dopen2(file_.id(), array.name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle in_file(H5Dget_space(data.id()), H5Sclose);
+    std::vector<hsize_t> lengths = LengthsOf(in_file.id());
+    std::vector<hsize_t> start(lengths.size(), 0);
+    const auto slowest =
+        std::find_if(lengths.begin(), lengths.end(), [](hsize_t length) { return length > 1; });
+    if (slowest != lengths.end()) {
+      start[static_cast<size_t>(slowest - lengths.begin())] = first;
+      *slowest = count;
+    }
+    const Handle in_memory(
+        H5Screate_simple(static_cast<int>(lengths.size()), lengths.data(), nullptr), H5Sclose);
+    std::vector<uint8_t> numbers(count * array.SliceBytes());
+    const bool is_chosen =
+        lengths.empty() || H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr,
+                                               lengths.data(), nullptr) >= 0;
+    if (!is_chosen || H5Dread(data.id(), TypeOf(array.format), in_memory.id(), in_file.id(),
+                              H5P_DEFAULT, numbers.data()) < 0) {
+      throw InputError(array.name +
+                       ": damaged, or compressed by a filter that the HDF5 library lacks here "
+                       "('h5repack -f GZIP=1 FILE OUT' where it has it)");
+    }
+    return numbers;
+  }
+
+ private:
+  static Handle Open(const std::filesystem::path& path) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are exceptions, not printed
+    setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);  // read-only disks and networks have no locks
+    return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  }
+
+  static std::vector<hsize_t> LengthsOf(hid_t space) {
+    const int rank = H5Sget_simple_extent_ndims(space);
+    std::vector<hsize_t> lengths(static_cast<size_t>(std::max(rank, 0)));
+    H5Sget_simple_extent_dims(space, lengths.data(), nullptr);
+    return lengths;
+  }
+
+  void Add(const std::string& name) {
+    const Handle data(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!data) return;
+    const Handle type(H5Dget_type(data.id()), H5Tclose);
+    const Handle space(H5Dget_space(data.id()), H5Sclose);
+    const auto format = FormatOf(type.id());
+    if (!format || H5Sget_simple_extent_type(space.id()) == H5S_NULL) return;
+    ArrayInfo info{name, *format, {}, H5Aexists(data.id(), "MATLAB_class") > 0};
+    for (const hsize_t length : LengthsOf(space.id())) info.shape.push_back(length);
+    if (std::find(info.shape.begin(), info.shape.end(), 0) != info.shape.end()) return;
+    std::erase(info.shape, 1);
+    arrays_.push_back(std::move(info));
+  }
+
+  Handle file_;
+  std::vector<ArrayInfo> arrays_;
+};
+
+}  // namespace
+
+bool IsHdf5(const std::filesystem::path& path) { return H5Fis_hdf5(path.c_str()) > 0; }
+
+std::unique_ptr<ArrayFile> OpenHdf5(const std::filesystem::path& path) {
+  return std::make_unique<Hdf5File>(path);
+}
+
+}  // namespace ossa::depth
