@@ -59,10 +59,11 @@ NITE2_REDIST=/usr/lib/ossa/nite2."
 ossa_package(dev libossa-dev libdevel "headers of ossa, skeletons of people from depth images
 Headers and CMake files for programs that follow people in depth images."
   DEPENDS "ossa ${same}, libeigen3-dev")
-if(TARGET ossa_mkv_reader OR TARGET ossa_bag_reader OR TARGET ossa_rosbag2_reader)
+if(TARGET ossa_mkv_reader OR TARGET ossa_bag_reader OR TARGET ossa_rosbag2_reader OR TARGET ossa_array_reader)
   ossa_package(readers ossa-readers video "reads recordings of other depth cameras for ossa
 Programs by which ossa reads recordings of the Azure Kinect and of Femto
-(.mkv), of RealSense and of ROS 1 and 2 (.bag, .db3, .mcap)."
+(.mkv), of RealSense and of ROS 1 and 2 (.bag, .db3, .mcap), and arrays of NumPy,
+MATLAB and HDF5 (.npy, .npz, .mat, .h5)."
     DEPENDS "ossa ${same}")
 endif()
 if(TARGET ossa_python)
