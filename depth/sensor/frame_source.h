@@ -86,16 +86,16 @@ struct SourceOptions {
   void Check() const;
 };
 
-/// Whether the path is a file of depth images by its extension, in any case (.oni, .mkv, .bag,
-/// .db3, .mcap, .png, .tif, .npy and so on), or a folder of images, a ROS 2 bag or a scan. Throws
-/// std::filesystem::filesystem_error for a folder that cannot be read.
+/// Whether the path is a file of depth images by its extension, in any case (.oni, .xef, .mkv,
+/// .bag, .db3, .mcap, .png, .tif, .npy and so on), or a folder of images, a ROS 2 bag or a scan.
+/// Throws std::filesystem::filesystem_error for a folder that cannot be read.
 bool IsRecording(const std::filesystem::path& path);
 
-/// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", "FILE.mkv", a bag of ROS (FILE.bag, FILE.db3,
-/// FILE.mcap, a folder of such files) or "BAG#/topic", arrays of NumPy, MATLAB or HDF5 (FILE.npy,
-/// .npz, .mat, .h5) or "FILE#name", a folder of depth images (PNG, TIFF, PGM, NPY), a scan or a
-/// DATASET; or one such image, a still (docs/sources.md). Throws InputError naming it and what was
-/// expected.
+/// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", "FILE.xef", "FILE.mkv", a bag of ROS
+/// (FILE.bag, FILE.db3, FILE.mcap, a folder of such files) or "BAG#/topic", arrays of NumPy, MATLAB
+/// or HDF5 (FILE.npy, .npz, .mat, .h5) or "FILE#name", a folder of depth images (PNG, TIFF, PGM,
+/// NPY), a scan or a DATASET; or one such image, a still (docs/sources.md). Throws InputError
+/// naming it and what was expected.
 std::unique_ptr<FrameSource> OpenSource(const std::string& source,
                                         const SourceOptions& options = {});
 

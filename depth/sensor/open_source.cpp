@@ -40,9 +40,6 @@ std::string SizeText(const Camera& camera) {
 }  // namespace
 
 const char* DescribeConversion(const std::filesystem::path& file) {
-  constexpr const char* kXef =
-      "a Kinect Studio recording: extract its depth to 16-bit PNGs, by KinectXEFTools or by "
-      "playing it into a recorder on Windows, and read that folder";
   constexpr const char* kVideo =
       "a video, which holds colours and no distances; one of 16-bit greys becomes a folder to read "
       "by 'ffmpeg -i FILE -pix_fmt gray16be FOLDER/%06d.png'";
@@ -67,11 +64,11 @@ const char* DescribeConversion(const std::filesystem::path& file) {
   constexpr const char* kZed = "a ZED recording: its SDK's ZED_SVO_Export makes 16-bit PNGs of it";
   using How = std::pair<std::string_view, const char*>;
   constexpr std::array kHow = {
-      How{".xef", kXef},    How{".mp4", kVideo}, How{".avi", kVideo},  How{".mov", kVideo},
-      How{".webm", kVideo}, How{".m4v", kVideo}, How{".wmv", kVideo},  How{".zstd", kPacked},
-      How{".pkl", kArray},  How{".raw", kRaw},   How{".bin", kRaw},    How{".exr", kFloats},
-      How{".ply", kCloud},  How{".pcd", kCloud}, How{".svo", kZed},    How{".svo2", kZed},
-      How{".sens", kSens},  How{".klg", kKlg},   How{".pfm", kFloats}, How{".jp2", kImage}};
+      How{".mp4", kVideo}, How{".avi", kVideo},  How{".mov", kVideo},   How{".webm", kVideo},
+      How{".m4v", kVideo}, How{".wmv", kVideo},  How{".zstd", kPacked}, How{".pkl", kArray},
+      How{".raw", kRaw},   How{".bin", kRaw},    How{".exr", kFloats},  How{".ply", kCloud},
+      How{".pcd", kCloud}, How{".svo", kZed},    How{".svo2", kZed},    How{".sens", kSens},
+      How{".klg", kKlg},   How{".pfm", kFloats}, How{".jp2", kImage}};
   const auto found = std::find_if(
       kHow.begin(), kHow.end(),
       [extension = LowerCaseExtension(file)](const auto& how) { return how.first == extension; });
@@ -98,8 +95,9 @@ bool IsRecording(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
     const std::filesystem::path file = RecordingName(path.string()).file;
     const std::string extension = LowerCaseExtension(file);
-    return IsOniName(path) || extension == ".mkv" || IsRos1Name(file) || IsRos2Bag(file) ||
-           IsDepthFileName(path) || IsArrayName(file) || DescribeConversion(file) != nullptr;
+    return IsOniName(path) || extension == ".mkv" || extension == ".xef" || IsRos1Name(file) ||
+           IsRos2Bag(file) || IsDepthFileName(path) || IsArrayName(file) ||
+           DescribeConversion(file) != nullptr;
   }
   const std::filesystem::directory_iterator entries(path);
   const bool has_depth = std::any_of(begin(entries), end(entries), [](const auto& entry) {
@@ -189,6 +187,9 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
   const auto [file, part] = RecordingName(source);
   if (std::filesystem::exists(file, error)) {
     if (LowerCaseExtension(file) == ".mkv") return OpenMkvFile(path, options);
+    if (LowerCaseExtension(file) == ".xef") {
+      return Prepared(source, OpenXefFile(path, options), UnitStated::kYes, options);
+    }
     if (IsRos1Name(file)) return OpenBagFile(file, part, options);
     if (IsRos2Bag(file)) return OpenRos2Bag(file, part, options);
     if (IsArrayName(file)) return OpenArrayFile(file, part, options);
@@ -201,7 +202,7 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
   }
   throw InputError(
       source +
-      ": expected openni:, openni:URI, FILE.oni, FILE.mkv, FILE.bag, FILE.db3, "
+      ": expected openni:, openni:URI, FILE.oni, FILE.xef, FILE.mkv, FILE.bag, FILE.db3, "
       "FILE.mcap, arrays (.npy, .npz, .mat, .h5), a 16-bit PNG, TIFF or PGM, a folder of them, or "
       "a data set, found " +
       (std::filesystem::exists(path, error) ? "a file of another name" : "no such file or folder"));

@@ -52,6 +52,10 @@ std::unique_ptr<FrameSource> OpenBagFile(const std::filesystem::path& path,
 std::unique_ptr<FrameSource> OpenRos2Bag(const std::filesystem::path& path,
                                          const std::string& topic, const SourceOptions& options);
 
+/// A recording of Kinect Studio (xef_file.h), as it is: mirrored.
+std::unique_ptr<FrameSource> OpenXefFile(const std::filesystem::path& path,
+                                         const SourceOptions& options);
+
 /// Arrays of NumPy, MATLAB or HDF5 (IsArrayName); array "": chosen by its name and shape. Read in a
 /// child process. The camera beside the file is that of a still.
 std::unique_ptr<FrameSource> OpenArrayFile(const std::filesystem::path& path,

@@ -48,7 +48,7 @@ std::span<const SkeletonFormat> AllSkeletonFormats() {
     // Generic tables last: they have the fewest marks of their own.
     for (const auto formats :
          {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(), KinectV2Formats(),
-          KinectV1Formats(), C3dFormats(), StreamSaverFormats(), TableFormats()}) {
+          KinectV1Formats(), C3dFormats(), XefFormats(), StreamSaverFormats(), TableFormats()}) {
       all.insert(all.end(), formats.begin(), formats.end());
     }
     return all;

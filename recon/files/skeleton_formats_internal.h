@@ -63,6 +63,7 @@ std::span<const SkeletonFormat> AzureFormats();        // skeleton_azure.cpp
 std::span<const SkeletonFormat> C3dFormats();          // skeleton_c3d.cpp
 std::span<const SkeletonFormat> StreamSaverFormats();  // skeleton_stream_saver.cpp
 std::span<const SkeletonFormat> TableFormats();        // skeleton_tables.cpp
+std::span<const SkeletonFormat> XefFormats();          // skeleton_xef.cpp
 
 /// The file of times that Kinect Stream Saver writes beside its joints; not a recording itself.
 inline constexpr const char* kSaverTimes = "liTimeStamp.binary";

@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 
+#include "recon/files/kinect_v2_joints_internal.h"
 #include "recon/files/origin_points_internal.h"
 #include "recon/files/skeleton_formats_internal.h"
 #include "recon/orientation.h"
@@ -17,16 +18,7 @@ namespace {
 
 // Constants: of the Kinect SDK 2 and of KERAAL's format.
 
-constexpr size_t kV2Joints = 25;
 constexpr size_t kSpineShoulder = 20;
-
-// Our joint for a joint index of SDK 2. Its first twenty are SDK 1's, except for Neck in place of
-// ShoulderCenter.
-std::optional<Joint> JointOfV2(size_t joint) {
-  if (joint == kSpineShoulder) return Joint::kShoulderCenter;
-  if (joint == 2 || joint > kSpineShoulder) return std::nullopt;
-  return static_cast<Joint>(joint);
-}
 
 size_t CountNumbers(std::string_view line, char separator) {
   const auto fields = separator == ' ' ? Words(line) : Split(line, separator);
@@ -45,15 +37,6 @@ TrackingState ParseState(const TextLines& lines, double number) {
     lines.Fail("a tracking state 0, 1 or 2", fmt::format("{}", number));
   }
   return static_cast<TrackingState>(static_cast<int>(number));
-}
-
-// Stores the SDK's orientation of a joint that has a position. End joints have none in SDK 2: all
-// zero. Nor do seated recordings.
-void PutOrientation(BodyRecord& body, Joint joint, const Eigen::Quaterniond& sdk2) {
-  constexpr double kUnit = 1e-2;  // share of the length
-  if (std::abs(sdk2.norm() - 1) < kUnit) {
-    body.joints[joint]->orientation = OrientationFromSdk2(joint, sdk2.normalized());
-  }
 }
 
 // --- LabanotationSuite: ticks of 100 ns, then x, y, z, state of each joint, a comma at the end.
@@ -105,7 +88,7 @@ SkeletonSequence ReadKeraal(SkeletonInput& input) {
       if (!joint) continue;
       PutJoint(body, *joint, position);
       const double* wxyz = &numbers[7 * j + 3];
-      PutOrientation(body, *joint, {wxyz[0], wxyz[1], wxyz[2], wxyz[3]});
+      PutSdk2Orientation(body, *joint, {wxyz[0], wxyz[1], wxyz[2], wxyz[3]});
     }
     const size_t index = sequence.frames.size();
     sequence.frames.push_back(OneBodyFrame(index, static_cast<double>(index) * step_s, body));
@@ -196,7 +179,7 @@ BodyRecord ReadNtuBody(TextLines& lines, const std::string& id, std::map<std::st
     const auto place = PlaceIn(lines, {fields[0], fields[1], fields[2]}, "x, y or z");
     if (!place || IsNan(fields[11])) continue;
     PutJoint(body, *joint, *place, ParseState(lines, NumberIn(lines, fields[11], "the state")));
-    if (const auto wxyz = NtuOrientation(lines, fields)) PutOrientation(body, *joint, *wxyz);
+    if (const auto wxyz = NtuOrientation(lines, fields)) PutSdk2Orientation(body, *joint, *wxyz);
   }
   return body;
 }
@@ -294,6 +277,20 @@ constexpr SkeletonFormat kKinectV2Formats[] = {
 };
 
 }  // namespace
+
+// The first twenty are SDK 1's, except for Neck in place of ShoulderCenter.
+std::optional<Joint> JointOfV2(size_t joint) {
+  if (joint == kSpineShoulder) return Joint::kShoulderCenter;
+  if (joint == 2 || joint > kSpineShoulder) return std::nullopt;
+  return static_cast<Joint>(joint);
+}
+
+void PutSdk2Orientation(BodyRecord& body, Joint joint, const Eigen::Quaterniond& sdk2) {
+  constexpr double kUnit = 1e-2;  // share of the length
+  if (std::abs(sdk2.norm() - 1) < kUnit) {
+    body.joints[joint]->orientation = OrientationFromSdk2(joint, sdk2.normalized());
+  }
+}
 
 std::span<const SkeletonFormat> KinectV2Formats() { return kKinectV2Formats; }
 

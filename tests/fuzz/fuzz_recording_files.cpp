@@ -13,8 +13,9 @@
 
 namespace {
 
-constexpr std::array<const char*, 10> kKinds = {"x.bag", "x.mkv", "x.db3", "x.mcap", "x.npy",
-                                                "x.npz", "x.mat", "x.h5",  "x.tif",  "x.pgm"};
+constexpr std::array<const char*, 11> kKinds = {"x.bag", "x.mkv", "x.db3", "x.mcap",
+                                                "x.npy", "x.npz", "x.mat", "x.h5",
+                                                "x.tif", "x.pgm", "x.xef"};
 
 // The byte that stands for a file's kind.
 char KindOf(const std::string& name) {

@@ -4,9 +4,11 @@
 #include <sstream>
 
 #include "recon/files/skeleton_io.h"
+#include "tests/depth/sensor/xef_writer.h"
 #include "tests/fuzz/outcome.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/recon/files/skeleton_texts.h"
+#include "tests/recon/files/xef_bodies.h"
 #include "tests/recon/motion/figure.h"
 
 namespace {
@@ -40,6 +42,12 @@ std::vector<std::string> ossa::fuzz::Seeds() {
     const std::string path = ScratchPath(extension);
     WriteSkeletons(path, TwoFrames());
     seeds.push_back('\0' + TakeFile(path));
+  }
+  for (const bool is_archived : {false, true}) {
+    test::XefWriter writer(is_archived);
+    writer.AddStream(1, "Nui Body Frame", test::XefWriter::kBodies);
+    writer.AddEvent(1, 0, 0, test::XefBodies().Set(0, 1, 0.5F).bytes());
+    seeds.push_back('\0' + writer.Finish());
   }
   for (const std::string& text : ForeignSkeletonTexts()) seeds.push_back('\0' + text);
   seeds.push_back('\0' + test::FigureBvh({.frames = 2}));

@@ -78,7 +78,7 @@ TEST_P(PlainDamage, FlippedBitsDoNotCrash) {
   EXPECT_GT(outcomes.refused + outcomes.same, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(EachFormat, PlainDamage, testing::Range<size_t>(0, 13));
+INSTANTIATE_TEST_SUITE_P(EachFormat, PlainDamage, testing::Range<size_t>(0, 14));
 
 TEST(DamageSamples, AreAsManyAsTried) { EXPECT_EQ(ChecksummedSamples().size(), 13U); }
 

@@ -6,6 +6,7 @@
 
 #include "depth/sensor/frame_source.h"
 #include "tests/depth/sensor/mkv_writer.h"
+#include "tests/depth/sensor/xef_writer.h"
 #include "tests/support/depth_examples.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
@@ -99,6 +100,17 @@ std::vector<DamageSample> Arrays() {
 }
 #endif
 
+// Archived, of flat images: the sizes of others are those of the camera.
+DamageSample Xef() {
+  XefWriter writer(true);
+  writer.AddStream(1, "Nui Depth", XefWriter::kDepth);
+  for (uint16_t i = 0; i < 3; ++i) {
+    const std::vector<uint16_t> depths(size_t{512} * 424, static_cast<uint16_t>(1500 + 100 * i));
+    writer.AddEvent(1, 333'333U * i, i, depths);
+  }
+  return {"x.xef", writer.Finish(), ReadRecording};
+}
+
 }  // namespace
 
 Reading ReadRecording(const std::filesystem::path& path) {
@@ -137,6 +149,7 @@ std::vector<DamageSample> PlainRecordings() {
 #ifdef OSSA_TEST_ARRAYS
   for (DamageSample& sample : Arrays()) samples.push_back(std::move(sample));
 #endif
+  samples.push_back(Xef());
   for (DamageSample& sample : PlainImages()) samples.push_back(std::move(sample));
   return samples;
 }

@@ -319,7 +319,8 @@ int Info(int argc, char** argv) {
   app.get_option("SOURCE")->description(
       "a .ossa, .ossadb, .ossagp, .ossaprior, .ossarefine, .ossanet, .ossasurface, .ossamesh, "
       ".ossaperson or skeleton file, FILE#truth, a DATASET, a folder of skeleton files, or depth "
-      "images: .oni, .mkv, .bag, .db3, .mcap, BAG#/topic, arrays (.npy, .npz, .mat, .h5), a 16-bit "
+      "images: .oni, .xef, .mkv, .bag, .db3, .mcap, BAG#/topic, arrays (.npy, .npz, .mat, .h5), a "
+      "16-bit "
       "PNG, TIFF or PGM or a folder of them; or a device, openni: or openni:URI. The options say "
       "how "
       "depth images are read");

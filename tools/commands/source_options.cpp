@@ -69,10 +69,11 @@ void CheckDepthScale(const SourceArguments& arguments) {
 }
 
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
-  app.add_option("SOURCE", arguments.name,
-                 "openni: (first device), openni:URI, FILE.oni, FILE.mkv, FILE.bag, FILE.db3, "
-                 "FILE.mcap, arrays (.npy, .npz, .mat, .h5), a 16-bit PNG, TIFF or PGM or a folder "
-                 "of them, or a DATASET; openni:ossa://PATH plays a recording as a live device")
+  app.add_option(
+         "SOURCE", arguments.name,
+         "openni: (first device), openni:URI, FILE.oni, FILE.xef, FILE.mkv, FILE.bag, FILE.db3, "
+         "FILE.mcap, arrays (.npy, .npz, .mat, .h5), a 16-bit PNG, TIFF or PGM or a folder "
+         "of them, or a DATASET; openni:ossa://PATH plays a recording as a live device")
       ->required();
   std::string presets;
   for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");

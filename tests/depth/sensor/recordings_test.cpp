@@ -72,10 +72,10 @@ TEST(OpenNi1Oni, IsRead) {
 TEST(OtherRecordings, AreRefusedWithAWayToConvertThem) {
   const test::TemporaryFolder folder;
   const std::vector<std::pair<const char*, const char*>> cases = {
-      {"a.xef", "KinectXEFTools"},    {"a.MP4", "ffmpeg"},          {"a.zstd", "zstd -d"},
-      {"a.pkl", "ossa.Tracker"},      {"a.exr", "of floats"},       {"a.bin", "numpy.fromfile"},
-      {"a.PLY", "a cloud of points"}, {"a.svo2", "ZED_SVO_Export"}, {"a.sens", "reader.py"},
-      {"a.klg", "ElasticFusion"},     {"a.pfm", "floats"},          {"a.jp2", "ImageMagick"}};
+      {"a.MP4", "ffmpeg"},          {"a.zstd", "zstd -d"},       {"a.pkl", "ossa.Tracker"},
+      {"a.exr", "of floats"},       {"a.bin", "numpy.fromfile"}, {"a.PLY", "a cloud of points"},
+      {"a.svo2", "ZED_SVO_Export"}, {"a.sens", "reader.py"},     {"a.klg", "ElasticFusion"},
+      {"a.pfm", "floats"},          {"a.jp2", "ImageMagick"}};
   for (const auto& each : cases) {
     const auto path = folder / each.first;
     std::ofstream(path) << "x";

@@ -180,7 +180,8 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
     Parameters
     ----------
     source : str or path
-        "openni:" (first device), "openni:URI", FILE.oni, FILE.mkv (Azure Kinect, Femto), a
+        "openni:" (first device), "openni:URI", FILE.oni, FILE.xef (Kinect Studio),
+        FILE.mkv (Azure Kinect, Femto), a
         bag of ROS 1 or 2, RealSense or Orbbec (FILE.bag, FILE.db3, FILE.mcap, a folder) or
         "BAG#/topic", arrays of NumPy, MATLAB or HDF5 (FILE.npy, .npz, .mat, .h5) or "FILE#name",
         a 16-bit PNG, TIFF or PGM or a folder of them, or a data set of `ossa render`.
