@@ -28,11 +28,23 @@ Read ReaderOf(const fs::path& path) {
   return found == kFormats.end() ? nullptr : found->second;
 }
 
-bool IsDepth(const NumberImage& image) { return image.channels == 1 && HoldsDepths(image.format); }
+// Arrays beside images may be poses, matrices, times.
+bool MayBeImage(Read read, const NumberImage& image) {
+  constexpr int kSmallestSide = 16;  // pixels, by hand
+  return read != ReadNpy || std::min(image.size.width, image.size.height) >= kSmallestSide;
+}
+
+bool IsDepth(Read read, const NumberImage& image) {
+  return image.channels == 1 && HoldsDepths(image.format) && MayBeImage(read, image);
+}
 
 NumberImage ReadDepthNumbers(Read read, const fs::path& path, ReadPart part) {
   NumberImage image = read(path, part);
-  if (IsDepth(image)) return image;
+  if (IsDepth(read, image)) return image;
+  if (!MayBeImage(read, image)) {
+    throw InputError(path.string() + ": expected an image, found an array of " +
+                     std::to_string(image.size.height) + "x" + std::to_string(image.size.width));
+  }
   throw InputError(path.string() + ": expected one channel of 16 bits or more, found " +
                    std::to_string(image.channels) + " of " + NameOf(image.format));
 }
@@ -67,7 +79,7 @@ bool IsOtherImage(const fs::path& path) {
   const Read read = ReaderOf(path);
   if (read == nullptr) return IsOtherPng(path);
   try {
-    return !IsDepth(read(path, ReadPart::kHeader));
+    return !IsDepth(read, read(path, ReadPart::kHeader));
   } catch (const InputError&) {
     return false;
   }

@@ -65,14 +65,16 @@ Rank RankByName(const fs::path& image) {
   return HasWord(family, kOthers) ? Rank::kNamedOther : Rank::kUnnamed;
 }
 
-// Of images in several formats, which show the same, those in the commonest, else in the first by
-// name: .npy is before .png.
+// Of images in several formats, which show the same, those in the commonest; of two as common PNGs,
+// else those of the first name.
 void KeepOneFormat(Sorted& sorted) {
   std::map<std::string, size_t> count;
   for (const fs::path& path : sorted.depth) ++count[LowerCaseExtension(path)];
   if (count.size() < 2) return;
-  const auto commonest = std::max_element(
-      count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto commonest =
+      std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.second, a.first == ".png") < std::pair(b.second, b.first == ".png");
+      });
   const auto others = std::stable_partition(
       sorted.depth.begin(), sorted.depth.end(),
       [&](const fs::path& path) { return LowerCaseExtension(path) == commonest->first; });

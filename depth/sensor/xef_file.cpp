@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <map>
+#include <new>
 #include <span>
 #include <string_view>
 
@@ -32,7 +33,8 @@ constexpr std::array<uint8_t, 16> kDepthType = {0xd6, 0x14, 0x39, 0x0a, 0x16, 0x
 constexpr std::array<uint8_t, 16> kBodyType = {0x79, 0x51, 0xc4, 0xa0, 0x68, 0x51, 0x75, 0x48,
                                                0xa7, 0x5c, 0xf8, 0xf1, 0x76, 0x0f, 0x63, 0x7c};
 constexpr uint32_t kImageBytes = 2 * kXefWidth * kXefHeight;
-constexpr uint32_t kBodiesBytes = 6288;
+constexpr uint32_t kBodiesBytes = 32 + 6 * 1040;  // at least
+constexpr uint32_t kMostBodiesBytes = 1 << 16;    // by hand: ten times as many
 constexpr uint32_t kLargestEvent = 16 << 20;  // bytes, by hand: four of the colour camera's images
 
 template <typename T>
@@ -51,9 +53,15 @@ struct Header {
 
 struct Stream {
   uint16_t flags = 0;
-  uint16_t tag = 0;                         // bytes before the data of its events
-  std::vector<XefEvent>* events = nullptr;  // of depth and bodies: where they are kept
-  uint32_t bytes = 0;                       // of each of these, unpacked
+  uint16_t tag = 0;                          // bytes before the data of its events
+  std::vector<XefEvent>* events = nullptr;   // of depth and bodies: where they are kept
+  uint32_t least = 0, most = kLargestEvent;  // bytes of an event, unpacked
+
+  bool MayHave(const Header& event) const {
+    const bool is_compressed = (event.flags & kCompressed) != 0;
+    return is_compressed == ((flags & kCompressed) != 0) && event.whole >= least &&
+           event.whole <= most && (is_compressed || event.stored == event.whole);
+  }
 };
 
 Header ParseHeader(std::span<const uint8_t> bytes) {
@@ -128,9 +136,7 @@ class IndexReader {
     const auto stream = streams_.find(event.stream);
     const bool is_described = stream != streams_.end();
     if (event.stored > kLargestEvent || event.whole > kLargestEvent) return 0;
-    if (is_described && stream->second.flags != event.flags) return 0;
-    if (is_described && stream->second.bytes > 0 && event.whole != stream->second.bytes) return 0;
-    if (is_described && (event.flags & kCompressed) == 0 && event.stored != event.whole) return 0;
+    if (is_described && !stream->second.MayHave(event)) return 0;
     if (!is_described && event.stream != kMetadata && !IsNewStream(event.stream)) return 0;
     if (IsNewStream(event.stream) && event.stored != kStreamName) return 0;
     const int64_t tag = is_described ? stream->second.tag : kDescriptionTag;
@@ -162,10 +168,11 @@ class IndexReader {
     };
     if (is_of(kDepthType)) {
       stream.events = &index_.depth;
-      stream.bytes = kImageBytes;
+      stream.least = stream.most = kImageBytes;
     } else if (is_of(kBodyType)) {
       stream.events = &index_.bodies;
-      stream.bytes = kBodiesBytes;
+      stream.least = kBodiesBytes;
+      stream.most = kMostBodiesBytes;
     }
     index_.streams.push_back(NameOf(std::span(tag).subspan(kDescriptionTag)));
     streams_[number] = stream;
@@ -231,6 +238,22 @@ class IndexReader {
   XefIndex index_;
 };
 
+// Whether the stream ends with its checksum is not documented: it is checked if it is there.
+std::vector<uint8_t> Inflated(std::vector<uint8_t>& stored, uint32_t size) {
+  std::vector<uint8_t> bytes(size);
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+  stream.next_in = stored.data();
+  stream.avail_in = static_cast<uInt>(stored.size());
+  stream.next_out = bytes.data();
+  stream.avail_out = size;
+  const int status = inflate(&stream, Z_FINISH);
+  inflateEnd(&stream);
+  const bool is_whole = status == Z_STREAM_END || (status == Z_BUF_ERROR && stream.avail_in == 0);
+  if (!is_whole || stream.avail_out > 0) throw InputError("its compressed bytes are damaged");
+  return bytes;
+}
+
 }  // namespace
 
 std::string XefIndex::StreamNames() const {
@@ -252,12 +275,7 @@ std::vector<uint8_t> ReadXefBytes(std::istream& file, const XefEvent& event) {
   file.read(reinterpret_cast<char*>(stored.data()), static_cast<std::streamsize>(stored.size()));
   if (!file) throw InputError("cut short");
   if (!event.is_compressed) return stored;
-  std::vector<uint8_t> bytes(event.bytes);
-  uLongf size = event.bytes;
-  const int status =
-      uncompress(bytes.data(), &size, stored.data(), static_cast<uLong>(stored.size()));
-  if (status != Z_OK || size != event.bytes) throw InputError("its compressed bytes are damaged");
-  return bytes;
+  return Inflated(stored, event.bytes);
 }
 
 }  // namespace ossa::depth

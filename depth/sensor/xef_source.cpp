@@ -88,6 +88,9 @@ void TellOf(const std::string& name, const XefIndex& index, const SourceOptions&
 
 std::unique_ptr<FrameSource> OpenXefFile(const std::filesystem::path& path,
                                          const SourceOptions& options) {
+  if (!std::filesystem::is_regular_file(path)) {
+    throw InputError(path.string() + ": expected a recording, found a pipe or a device");
+  }
   std::ifstream file = OpenFile(path);
   XefIndex index = ReadXefIndex(file, path.string());
   if (index.depth.empty()) {

@@ -136,6 +136,17 @@ TEST(NumpyArrays, ThatWereCutShortGiveTheImagesBefore) {
   ExpectRefused([&] { source->Read(std::chrono::seconds(1)); }, "cut short in image 2");
 }
 
+TEST(NumpyArrays, BesideImagesAreIgnoredIfTheyAreSmall) {
+  const TemporaryFolder folder;
+  test::WriteFrame(folder / "0.png", 1000);
+  WriteBytes(folder / "K.npy", NpyBytes("<f8", {3, 3}, std::vector<double>(9, 1)));
+  WriteBytes(folder / "poses.npy", NpyBytes("<f8", {40, 7}, std::vector<double>(280, 1)));
+  Notes notes;
+  EXPECT_EQ(test::ValuesOf(*OpenSource(folder.path(), notes.Options())),
+            (std::vector<uint16_t>{1000}));
+  EXPECT_TRUE(notes.Tell("2 files are not depth images and are ignored: K.npy, poses.npy"));
+}
+
 TEST(NumpyArchives, HaveDepthTimesAndCameraByTheirNames) {
   const TemporaryFolder folder;
   const std::vector<double> matrix = {33, 0, 12, 0, 34, 9, 0, 0, 1};

@@ -72,14 +72,16 @@ TEST(FolderSource, ReadsImagesOfOtherFormats) {
   EXPECT_EQ(ValuesOf(*OpenSource(folder / "depth_10.pgm")), (std::vector<uint16_t>{1010}));
 }
 
-TEST(FolderSource, ReadsTheCommonestOfSeveralFormats) {
+TEST(FolderSource, ReadsTheCommonestOfSeveralFormatsOrPngs) {
   const TemporaryFolder folder;
-  for (const int i : {0, 1}) WritePgm(folder / (std::to_string(i) + ".pgm"), 1000);
+  for (const int i : {0, 1, 2}) WritePgm(folder / (std::to_string(i) + ".pgm"), 1000);
   for (const int i : {0, 1, 2}) WriteFrame(folder / (std::to_string(i) + ".png"), 2000);
   Notes notes;
   EXPECT_EQ(ValuesOf(*OpenSource(folder.path(), notes.Options())),
             (std::vector<uint16_t>{2000, 2000, 2000}));
   EXPECT_TRUE(notes.Tell("images in another format are ignored, such as 0.pgm"));
+  WritePgm(folder / "3.pgm", 1000);
+  EXPECT_EQ(ValuesOf(*OpenSource(folder.path())), (std::vector<uint16_t>(4, 1000)));
 }
 
 TEST(FolderSource, MaximumValueIsNoReading) {

@@ -82,8 +82,8 @@ class Hdf5File final : public ArrayFile {
   std::vector<ArrayInfo> List() override { return arrays_; }
 
   std::vector<uint8_t> Read(const ArrayInfo& array, size_t first, size_t count) override {
-    const Handle data(H5Dopen2(file_.id(), array.name.c_str(), H5P_DEFAULT), H5Dclose);
-    const Handle in_file(H5Dget_space(data.id()), H5Sclose);
+    const hid_t data = Keep(array.name);
+    const Handle in_file(H5Dget_space(data), H5Sclose);
     std::vector<hsize_t> lengths = LengthsOf(in_file.id());
     std::vector<hsize_t> start(lengths.size(), 0);
     const auto slowest =
@@ -98,8 +98,8 @@ class Hdf5File final : public ArrayFile {
     const bool is_chosen =
         lengths.empty() || H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr,
                                                lengths.data(), nullptr) >= 0;
-    if (!is_chosen || H5Dread(data.id(), TypeOf(array.format), in_memory.id(), in_file.id(),
-                              H5P_DEFAULT, numbers.data()) < 0) {
+    if (!is_chosen || H5Dread(data, TypeOf(array.format), in_memory.id(), in_file.id(), H5P_DEFAULT,
+                              numbers.data()) < 0) {
       throw InputError(array.name +
                        ": damaged, or compressed by a filter that the HDF5 library lacks here "
                        "('h5repack -f GZIP=1 FILE OUT' where it has it)");
@@ -108,6 +108,17 @@ class Hdf5File final : public ArrayFile {
   }
 
  private:
+  // The data set, open until another is read: its chunks may hold many images, and stay unpacked.
+  hid_t Keep(const std::string& name) {
+    constexpr size_t kSlots = 10'007, kBytes = size_t{64} << 20;  // by hand; a prime number
+    if (kept_ && kept_name_ == name) return kept_->id();
+    const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    H5Pset_chunk_cache(access.id(), kSlots, kBytes, 1.0);
+    kept_.emplace(H5Dopen2(file_.id(), name.c_str(), access.id()), H5Dclose);
+    kept_name_ = name;
+    return kept_->id();
+  }
+
   static Handle Open(const std::filesystem::path& path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are exceptions, not printed
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);  // read-only disks and networks have no locks
@@ -136,6 +147,8 @@ class Hdf5File final : public ArrayFile {
   }
 
   Handle file_;
+  std::optional<Handle> kept_;
+  std::string kept_name_;
   std::vector<ArrayInfo> arrays_;
 };
 
