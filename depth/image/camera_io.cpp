@@ -4,7 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
+#include <locale>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -15,6 +19,7 @@
 #include "depth/base/open_file.h"
 #include "depth/image/calibration_text.h"
 #include "depth/image/depth_png.h"
+#include "depth/image/number_image_internal.h"
 
 namespace ossa::depth {
 namespace {
@@ -166,18 +171,46 @@ bool IsCameraFile(const std::filesystem::path& path) {
          (!extension.empty() && std::filesystem::is_regular_file(path, none));
 }
 
-// Arrays of NumPy, which are no text.
-void RefuseArray(const std::filesystem::path& path, const std::string& text) {
-  const std::string extension = LowerCaseExtension(path);
-  if (!text.starts_with("\x93NUMPY") && extension != ".npy" && extension != ".npz") return;
-  throw InputError(path.string() +
-                   ": expected text, found an array of NumPy, which is not read: "
-                   "numpy.savetxt('K.txt', K) writes its matrix as text");
+// Several arrays, of which none is known to be the matrix.
+void RefuseArchive(const std::filesystem::path& path) {
+  if (LowerCaseExtension(path) != ".npz") return;
+  throw InputError(
+      path.string() +
+      ": expected one matrix, found an archive of NumPy: numpy.save('K.npy', K) writes "
+      "the matrix alone");
+}
+
+// The numbers of a matrix in an .npy file, row by row, as numpy.savetxt writes them.
+std::string TextOfArray(const std::string& file, const std::string& name) {
+  const std::span bytes(reinterpret_cast<const uint8_t*>(file.data()), file.size());
+  const NpyHeader header = ParseNpyHeader(bytes, name + ": ");
+  const bool is_matrix = header.shape == std::vector<size_t>{3, 3} ||
+                         header.shape == std::vector<size_t>{3, 4} ||
+                         header.shape == std::vector<size_t>{4, 4};
+  const size_t rows = is_matrix ? header.shape[0] : 0, columns = is_matrix ? header.shape[1] : 0;
+  const size_t size = rows * columns * static_cast<size_t>(header.format.size);
+  if (!is_matrix || bytes.size() < header.data_offset + size) {
+    throw InputError(name + ": expected a camera matrix, 3x3, found an array of " +
+                     ShapeText(header.shape));
+  }
+  const std::vector<double> values =
+      ValuesOf(header.format, bytes.subspan(header.data_offset, size));
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(std::numeric_limits<double>::max_digits10);
+  for (size_t row = 0; row < rows; ++row) {
+    for (size_t column = 0; column < columns; ++column) {
+      const size_t at = header.is_fortran ? column * rows + row : row * columns + column;
+      text << values[at] << (column + 1 < columns ? ' ' : '\n');
+    }
+  }
+  return text.str();
 }
 
 CameraChoice ReadCameraFile(const std::filesystem::path& path) {
-  const std::string text = ReadText(path), name = path.string();
-  RefuseArray(path, text);
+  RefuseArchive(path);
+  const std::string file = ReadText(path), name = path.string();
+  const std::string text = file.starts_with("\x93NUMPY") ? TextOfArray(file, name) : file;
   if (const auto calibration = FindCalibration(text, name)) return ChoiceOf(*calibration, name);
   if (LowerCaseExtension(path) == ".json") return CameraFromJson(text, name);
   if (const auto camera = ReadKalibrCamera(text, name)) return ChoiceOf(*camera, name);

@@ -81,7 +81,7 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
                  presets +
                      "or fx,fy,cx,cy in pixels, or a file: camera.json, a calibration of OpenCV, "
                      "ROS, Kalibr or COLMAP (.yaml, .xml, .json, .txt), or the camera matrix alone "
-                     "(.txt) (default: the source's own, else by the image size)");
+                     "(.txt, .npy) (default: the source's own, else by the image size)");
   app.add_option("--depth-scale", arguments.depth_scale,
                  "depth units per metre of a recording (default: its own, else 1000, millimetres)")
       ->check(CLI::Range(1e-3, 1e6));

@@ -38,13 +38,38 @@ TEST(CameraJson, PipeIsRefused) {
   close(both_ends);
 }
 
-TEST(CameraFiles, ArrayOfNumpyIsRefusedWithTheWayToWriteText) {
+// An .npy file of version 1.
+std::string Npy(const std::string& shape, bool is_fortran, const std::vector<double>& numbers) {
+  std::string header = std::string("{'descr': '<f8', 'fortran_order': ") +
+                       (is_fortran ? "True" : "False") + ", 'shape': " + shape + ", }";
+  header.resize(117, ' ');
+  header += '\n';
+  return std::string("\x93NUMPY\1\0\x76\0", 10) + header +
+         std::string(reinterpret_cast<const char*>(numbers.data()), 8 * numbers.size());
+}
+
+TEST(CameraFiles, MatrixOfNumpyIsRead) {
   const TemporaryFolder folder;
-  for (const char* name : {"K.npy", "K.npz", "K.txt"}) {
-    std::ofstream(folder / name) << "\x93NUMPY" << std::string(100, '\0');
-    test::ExpectRefused([&] { ReadCameraFile(folder / name); },
-                        std::string(name) + ": expected text, found an array of NumPy");
-  }
+  const auto expect = [&](const std::string& bytes) {
+    std::ofstream(folder / "K.npy", std::ios::binary) << bytes;
+    const Camera camera = CameraForSize(ReadCameraFile(folder / "K.npy"), 640, 480);
+    EXPECT_EQ(camera, (Camera{640, 480, 525.25, 526, 319.5, 239.5}));
+  };
+  expect(Npy("(3, 3)", false, {525.25, 0, 319.5, 0, 526, 239.5, 0, 0, 1}));
+  expect(Npy("(3, 3)", true, {525.25, 0, 0, 0, 526, 0, 319.5, 239.5, 1}));
+  expect(Npy("(3, 4)", false, {525.25, 0, 319.5, 0, 0, 526, 239.5, 0, 0, 0, 1, 0}));
+}
+
+TEST(CameraFiles, OtherArraysOfNumpyAreRefused) {
+  const TemporaryFolder folder;
+  const auto expect = [&](const char* name, const std::string& bytes, const char* named) {
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+    test::ExpectRefused([&] { ReadCameraFile(folder / name); }, named);
+  };
+  expect("K.npy", Npy("(5,)", false, {1, 2, 3, 4, 5}), "expected a camera matrix, 3x3");
+  expect("K.npy", Npy("(3, 3)", false, {1, 2, 3}), "expected a camera matrix, 3x3");
+  expect("K.npy", "\x93NUMPY" + std::string(100, '\0'), "expected a NumPy array");
+  expect("K.npz", "PK", "expected one matrix, found an archive of NumPy");
 }
 
 class BadCameraJson : public testing::TestWithParam<std::pair<const char*, const char*>> {};

@@ -187,7 +187,7 @@ def open(  # noqa: A001 - as the command's SOURCE is opened
         a 16-bit PNG, TIFF or PGM or a folder of them, or a data set of `ossa render`.
     camera : ossa.Camera, str or path, optional
         A preset's name, "fx,fy,cx,cy" in pixels, or a file with intrinsics (.json, .yaml, .xml,
-        .txt), as of `ossa track --camera`. Left out: the source's own, else a preset by the image size, with
+        .txt, .npy), as of `ossa track --camera`. Left out: the source's own, else a preset by the image size, with
         a note in `notes`.
     depth_scale : float, optional
         Units per metre of a recording's depths, 1e-3 to 1e6. Left out: its own, else 1000,
