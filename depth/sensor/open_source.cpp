@@ -77,6 +77,10 @@ const char* DescribeConversion(const std::filesystem::path& file) {
 
 namespace {
 
+bool IsOtherArray(const std::filesystem::path& path) {
+  return LowerCaseExtension(path) == ".npy" && IsOtherImage(path);
+}
+
 // Whether the folder holds only depth images of another format: beside skeletons there may be
 // videos.
 bool HoldsOnlyForeignImages(const std::filesystem::path& folder) {
@@ -101,7 +105,9 @@ bool IsRecording(const std::filesystem::path& path) {
   }
   const std::filesystem::directory_iterator entries(path);
   const bool has_depth = std::any_of(begin(entries), end(entries), [](const auto& entry) {
-    return IsDepthFileName(entry.path()) || entry.path().filename() == "depth.txt";
+    // Beside skeletons there may be arrays of anything.
+    const bool is_image = IsDepthFileName(entry.path()) && !IsOtherArray(entry.path());
+    return is_image || entry.path().filename() == "depth.txt";
   });
   return has_depth || HoldsDepthFolder(path) || HoldsOnlyForeignImages(path) || IsRos2Bag(path);
 }

@@ -145,6 +145,10 @@ TEST(NumpyArrays, BesideImagesAreIgnoredIfTheyAreSmall) {
   EXPECT_EQ(test::ValuesOf(*OpenSource(folder.path(), notes.Options())),
             (std::vector<uint16_t>{1000}));
   EXPECT_TRUE(notes.Tell("2 files are not depth images and are ignored: K.npy, poses.npy"));
+  EXPECT_TRUE(IsRecording(folder.path()));
+  std::filesystem::remove(folder / "0.png");
+  WriteBytes(folder / "walk.bvh", "HIERARCHY");
+  EXPECT_FALSE(IsRecording(folder.path())) << "but skeletons";
 }
 
 TEST(NumpyArchives, HaveDepthTimesAndCameraByTheirNames) {
