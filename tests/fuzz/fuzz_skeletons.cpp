@@ -50,9 +50,9 @@ std::vector<std::string> ossa::fuzz::Seeds() {
     seeds.push_back('\0' + writer.Finish());
   }
   for (const std::string& text : ForeignSkeletonTexts()) seeds.push_back('\0' + text);
-  seeds.push_back('\0' + test::FigureBvh({.frames = 2}));
-  seeds.push_back('\0' +
-                  test::FigureBvh({.units_per_cm = 0.01, .frames = 2, .bones_along_x = true}));
+  seeds.push_back('\0' + recon::test::FigureBvh({.frames = 2}));
+  seeds.push_back(
+      '\0' + recon::test::FigureBvh({.units_per_cm = 0.01, .frames = 2, .bones_along_x = true}));
   return seeds;
 }
 
