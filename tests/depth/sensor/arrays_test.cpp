@@ -297,6 +297,7 @@ TEST(ArrayStacks, CountImagesByTheEndThatLeavesThemACamerasShape) {
                                             {{300, 480, 640}, true, 300, 480, 640},
                                             {{300, 640, 480}, true, 300, 640, 480},
                                             {{640, 480, 300}, true, 300, 640, 480},
+                                            {{160, 120, 170}, false, 160, 170, 120},  // a crop
                                             {{480, 640}, false, 1, 640, 480},
                                             {{640, 480}, true, 1, 640, 480}}) {
     const auto stack = FindStack(InfoOf(each.shape, each.is_matlab));

@@ -16,7 +16,7 @@ namespace {
 constexpr size_t kSmallestSide = 16;  // pixels, by hand: smaller ones are no images of people
 
 // How likely images of this size are a depth camera's.
-enum class Likeness { kNone, kPossible, kRatio, kSize };
+enum class Likeness { kNone, kPossible, kSize };
 
 Likeness LikenessOf(size_t width, size_t height) {
   using Size = std::pair<size_t, size_t>;
@@ -26,9 +26,7 @@ Likeness LikenessOf(size_t width, size_t height) {
       Size{320, 288},  Size{512, 512},   Size{1024, 1024}, Size{848, 480}, Size{1280, 720},
       Size{1280, 800}, Size{640, 360},   Size{640, 400},   Size{480, 270}, Size{424, 240},
       Size{256, 192},  Size{1920, 1080}, Size{960, 540},   Size{176, 144}, Size{1920, 1440}};
-  constexpr std::array kRatios = {1.0,     640.0 / 576, 512.0 / 424, 5.0 / 4,
-                                  4.0 / 3, 16.0 / 10,   16.0 / 9};
-  constexpr double kSame = 0.01, kWidest = 2.0;  // shares, by hand: sizes are rounded
+  constexpr double kWidest = 2.0;  // share, by hand: of cameras 16:9
   const auto is_side = [](size_t side) {
     return side >= kSmallestSide && side <= kLargestImageSide;
   };
@@ -36,10 +34,7 @@ Likeness LikenessOf(size_t width, size_t height) {
   const Size size{std::max(width, height), std::min(width, height)};
   if (std::find(kSizes.begin(), kSizes.end(), size) != kSizes.end()) return Likeness::kSize;
   const double ratio = static_cast<double>(size.first) / static_cast<double>(size.second);
-  const bool is_known = std::any_of(kRatios.begin(), kRatios.end(), [&](double known) {
-    return std::abs(ratio / known - 1) < kSame;
-  });
-  return is_known ? Likeness::kRatio : ratio <= kWidest ? Likeness::kPossible : Likeness::kNone;
+  return ratio <= kWidest ? Likeness::kPossible : Likeness::kNone;
 }
 
 // The axes of `shape` that count images, rows and columns.
@@ -146,10 +141,13 @@ std::optional<ArrayStack> FindStack(const ArrayInfo& array) {
   if (array.shape.size() != 3) return std::nullopt;
   const Axes slices = is_column_major ? Axes{0, 2, 1} : Axes{0, 1, 2};
   const Axes across = is_column_major ? Axes{2, 1, 0} : Axes{2, 0, 1};
-  const bool is_across = LikenessOf(array, across) > LikenessOf(array, slices);
-  const Axes& axes = is_across ? across : slices;
-  if (LikenessOf(array, axes) == Likeness::kNone) return std::nullopt;
-  return Arrange(array, axes);
+  const Likeness as_slices = LikenessOf(array, slices), as_across = LikenessOf(array, across);
+  if (as_slices == Likeness::kNone && as_across == Likeness::kNone) return std::nullopt;
+  // A number of images may make any ratio by chance, but hardly the size of an upright camera.
+  const bool is_upright = array.shape[across.column] >= array.shape[across.row];
+  const bool is_camera = is_upright && as_across == Likeness::kSize && as_slices != Likeness::kSize;
+  const bool is_across = as_slices == Likeness::kNone || is_camera;
+  return Arrange(array, is_across ? across : slices);
 }
 
 ArrayStack ChooseStack(const std::vector<ArrayInfo>& arrays, const std::string& asked) {

@@ -25,8 +25,8 @@ struct ArrayStack {
 };
 
 /// The images that an array of two or three dimensions may be; none for other arrays. Of three
-/// dimensions the first counts the images, or MATLAB's last; the other end if only so the images
-/// have the shape of a camera's.
+/// dimensions the first counts the images, or MATLAB's last; the other end if the images were
+/// no images otherwise, or if only so they have the size of a known camera.
 std::optional<ArrayStack> FindStack(const ArrayInfo& array);
 
 /// The depth images of a file, those in `asked` or, if that is "", those named after depth, or the
