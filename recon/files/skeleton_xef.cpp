@@ -35,8 +35,9 @@ BodyRecord ParseBody(std::span<const uint8_t> bytes) {
     const auto number = [&](size_t part, size_t i) {
       return static_cast<double>(NumberAt<float>(bytes, part + 16 * j + 4 * i));
     };
-    PutJoint(body, *joint, {number(0, 0), number(0, 1), number(0, 2)},
-             static_cast<TrackingState>(state));
+    const Eigen::Vector3d position_m(number(0, 0), number(0, 1), number(0, 2));
+    if (!position_m.allFinite()) continue;  // not seen
+    PutJoint(body, *joint, position_m, static_cast<TrackingState>(state));
     PutSdk2Orientation(body, *joint,
                        {number(kOrientations, 3), number(kOrientations, 0),
                         number(kOrientations, 1), number(kOrientations, 2)});

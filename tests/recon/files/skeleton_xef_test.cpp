@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "recon/files/skeleton_io.h"
@@ -70,6 +71,17 @@ TEST(KinectStudioSkeletons, OfAFileThatWasCutShortAreReadWithAWarning) {
   EXPECT_EQ(sequence.frames.size(), 1u);
   ASSERT_FALSE(sequence.warnings.empty());
   EXPECT_NE(sequence.warnings[0].find("cut short"), std::string::npos);
+}
+
+TEST(KinectStudioSkeletons, LackJointsWithoutAPosition) {
+  XefBodies bodies;
+  bodies.Set(0, 1, std::numeric_limits<float>::quiet_NaN()).Set(1, 2, 0.5F);
+  XefWriter writer;
+  writer.AddStream(1, "Nui Body Frame", XefWriter::kBodies).AddEvent(1, 0, 0, bodies.bytes());
+  const SkeletonSequence sequence = Read(writer.Finish());
+  ASSERT_EQ(sequence.frames[0].bodies.size(), 2u);
+  EXPECT_FALSE(sequence.frames[0].bodies[0].joints[Joint::kHead].has_value());
+  EXPECT_TRUE(sequence.frames[0].bodies[1].joints[Joint::kHead].has_value());
 }
 
 TEST(KinectStudioSkeletons, AreMissedByName) {
