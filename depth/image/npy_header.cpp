@@ -77,7 +77,9 @@ NpyHeader ParseNpyHeader(std::span<const uint8_t> bytes, const std::string& pref
   const size_t begin = bytes[6] == 1 ? kShortBegin : kLongBegin;
   size_t length = 0;
   for (size_t i = begin; i > 8; --i) length = length << 8 | bytes[i - 1];
-  if (length > file.size() - begin) throw InputError(prefix + "its NumPy header is cut short");
+  if (length > file.size() - begin) {
+    throw InputError(prefix + "its NumPy header is cut short, or longer than that of numbers");
+  }
   const std::string_view text = file.substr(begin, length);
   return {ParseType(ValueOf(text, "'descr'", prefix), prefix),
           ValueOf(text, "'fortran_order'", prefix).starts_with("True"),

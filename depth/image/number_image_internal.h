@@ -40,8 +40,9 @@ struct NpyHeader {
 /// "300x240x320".
 std::string ShapeText(std::span<const size_t> shape);
 
-/// The most bytes that a header needs, with its beginning.
-inline constexpr size_t kLongestNpyHeader = (size_t{64} << 10) + 12;  // by hand; NumPy's have 118
+/// The most bytes of a header, by hand: NumPy's have 128, and only structures, which are refused,
+/// need many. Of each file of a folder so much is read before its image is.
+inline constexpr size_t kLongestNpyHeader = 4096;
 
 /// Parses the first bytes of a file. Throws InputError, `prefix` first, for other files, and for
 /// arrays of anything but integers and floats.

@@ -45,8 +45,8 @@ std::unique_ptr<ArrayFile> OpenNpz(const std::filesystem::path& path);
 /// A MAT file of version 5, 6 or 7: its variables, not those inside of structs. Version 7.3 is
 /// HDF5.
 std::unique_ptr<ArrayFile> OpenMat(const std::filesystem::path& path);
-/// The data sets of an HDF5 file, in any group, named by their path.
 bool IsHdf5(const std::filesystem::path& path);
+/// The data sets of an HDF5 file, in any group, named by their path.
 std::unique_ptr<ArrayFile> OpenHdf5(const std::filesystem::path& path);
 
 }  // namespace ossa::depth
