@@ -32,6 +32,10 @@ void WriteBytes(const std::filesystem::path& path, const std::vector<uint8_t>& b
 
 }  // namespace
 
+std::string SizeText(ImageSize size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
 Image<uint16_t> ReadDepthPng(const std::filesystem::path& path) {
   return ReadGreyPng<uint16_t>(path);
 }

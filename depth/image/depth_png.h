@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "depth/image/depth_frame.h"
 #include "depth/image/image.h"
@@ -13,6 +14,9 @@ struct ImageSize {
   int height = 0;
   bool operator==(const ImageSize&) const = default;
 };
+
+/// "640x480".
+std::string SizeText(ImageSize size);
 
 /// A depth image file: PNG, one 16-bit grey channel, millimetres, 0 = no reading.
 /// Throws InputError naming the file, the place and what was expected: not a PNG, another channel

@@ -22,10 +22,6 @@ struct Skipped {
   std::string first;  // error of the first one
 };
 
-std::string SizeText(ImageSize size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 class FolderSource final : public FrameSource {
  public:
   FolderSource(std::string name, FolderListing listing, const Camera& camera,
@@ -119,9 +115,8 @@ Camera StatedCamera(const CameraChoice& choice, const fs::path& file, ImageSize 
   const Camera& camera = choice.camera;
   const bool has_size = camera.width > 0;
   if (has_size && (camera.width != size.width || camera.height != size.height)) {
-    throw InputError(file.string() + ": camera: expected the frames' size " +
-                     std::to_string(size.width) + "x" + std::to_string(size.height) + ", found " +
-                     std::to_string(camera.width) + "x" + std::to_string(camera.height));
+    throw InputError(file.string() + ": camera: expected the frames' size " + SizeText(size) +
+                     ", found " + SizeText({camera.width, camera.height}));
   }
   return CameraForSize(choice, size.width, size.height);
 }
@@ -159,7 +154,7 @@ std::vector<fs::path> CameraFilesOfOthers(const fs::path& folder) {
 void CheckCentre(const Camera& camera, const fs::path& file) {
   if (IsCentreNear(camera)) return;
   throw InputError(file.string() + ": its centre is not that of images of " +
-                   std::to_string(camera.width) + "x" + std::to_string(camera.height));
+                   SizeText({camera.width, camera.height}));
 }
 
 // Unrelated files of these names are ignored.

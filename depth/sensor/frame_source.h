@@ -29,7 +29,7 @@ struct ReadResult {
 };
 
 /// A source of depth images: an OpenNI2 device, a recording (.oni, .mkv, bags of ROS), a folder of
-/// PNGs or a single PNG, a data set.
+/// PNGs or a single PNG, a data set, another program's images through a pipe.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -40,7 +40,8 @@ class FrameSource {
   /// Intrinsics of the following frames; if a frame's own camera differs, that one is valid.
   virtual const Camera& camera() const = 0;
 
-  /// True for devices: frames arrive in real time and are lost when not read.
+  /// True for devices, whose frames arrive in real time and are lost when not read, and for pipes,
+  /// whose writer waits.
   virtual bool is_live() const = 0;
 
   /// Number of frames of a recording; nullopt for devices and for files that do not state it.
@@ -64,7 +65,8 @@ enum class DepthFormat {
 struct SourceOptions {
   std::optional<CameraChoice> camera = {};   // overrides the source's own
   std::chrono::milliseconds device_wait{0};  // how long to wait for a device to appear
-  std::function<bool()> keep_waiting = {};   // called ten times a second meanwhile; empty: true
+  // Called ten times a second meanwhile, and before a stream's first images; empty: true.
+  std::function<bool()> keep_waiting = {};
   // After this time without a frame OpenNI2's player counts as hung and the file as damaged. The
   // player itself waits 3 s for a frame of a truncated file.
   std::chrono::milliseconds player_patience{10000};
@@ -86,16 +88,20 @@ struct SourceOptions {
   void Check() const;
 };
 
-/// Whether the path is a file of depth images by its extension, in any case (.oni, .xef, .mkv,
-/// .bag, .db3, .mcap, .png, .tif, .npy and so on), or a folder of images, a ROS 2 bag or a scan.
-/// Throws std::filesystem::filesystem_error for a folder that cannot be read.
+/// Whether SOURCE is standard input, "-", or a named pipe: images that another program sends.
+bool IsStream(const std::string& source);
+
+/// Whether the path is a stream or a file of depth images by its extension, in any case (.oni,
+/// .xef, .mkv, .bag, .db3, .mcap, .png, .tif, .npy and so on), or a folder of images, a ROS 2 bag
+/// or a scan. Throws std::filesystem::filesystem_error for a folder that cannot be read.
 bool IsRecording(const std::filesystem::path& path);
 
 /// Opens SOURCE: "openni:", "openni:URI", "FILE.oni", "FILE.xef", "FILE.mkv", a bag of ROS
 /// (FILE.bag, FILE.db3, FILE.mcap, a folder of such files) or "BAG#/topic", arrays of NumPy, MATLAB
 /// or HDF5 (FILE.npy, .npz, .mat, .h5) or "FILE#name", a folder of depth images (PNG, TIFF, PGM,
-/// NPY), a scan or a DATASET; or one such image, a still (docs/sources.md). Throws InputError
-/// naming it and what was expected.
+/// NPY), a scan or a DATASET; or one such image, a still; or "-", standard input, or a named pipe:
+/// PGM images one after the other (docs/sources.md). Throws InputError naming it and what was
+/// expected.
 std::unique_ptr<FrameSource> OpenSource(const std::string& source,
                                         const SourceOptions& options = {});
 

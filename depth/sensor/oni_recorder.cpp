@@ -13,6 +13,7 @@
 #include "depth/base/atomic_file.h"
 #include "depth/base/error.h"
 #include "depth/base/open_file.h"
+#include "depth/image/depth_png.h"
 #include "depth/image/packed_depth.h"
 #include "depth/sensor/oni_codec_internal.h"
 #include "depth/sensor/oni_format_internal.h"
@@ -150,10 +151,6 @@ Bytes Preamble(const Camera& camera, int fps, const Totals& totals) {
   return bytes;
 }
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
 }  // namespace
 
 struct OniRecorder::State {
@@ -174,8 +171,8 @@ struct OniRecorder::State {
   Bytes Encode(const DepthFrame& frame) const {
     const std::string place = name + ": frame " + std::to_string(seek_table.size() - 1) + ": ";
     if (!HasSize(frame, camera.width, camera.height)) {
-      throw InputError(place + "expected " + SizeText(camera.width, camera.height) + ", found " +
-                       SizeText(frame.camera.width, frame.camera.height) + " and " +
+      throw InputError(place + "expected " + SizeText({camera.width, camera.height}) + ", found " +
+                       SizeText({frame.camera.width, frame.camera.height}) + " and " +
                        std::to_string(frame.pixel_count()) + " depths");
     }
     std::vector<uint16_t> scratch;
@@ -256,7 +253,7 @@ OniRecorder::OniRecorder(const std::filesystem::path& path, const Camera& camera
                          int frames_per_second) {
   if (int64_t{2} * camera.width * camera.height > kLargestOniData) {
     throw InputError(path.string() + ": expected frames that an OpenNI2 player can hold, found " +
-                     SizeText(camera.width, camera.height));
+                     SizeText({camera.width, camera.height}));
   }
   state_ = std::make_unique<State>(path, camera, frames_per_second);
   state_->Put(Preamble(camera, frames_per_second, {}));

@@ -34,7 +34,7 @@ bool IsOniName(const std::filesystem::path& path) {
 }
 
 std::string SizeText(const Camera& camera) {
-  return std::to_string(camera.width) + "x" + std::to_string(camera.height);
+  return depth::SizeText({camera.width, camera.height});
 }
 
 }  // namespace
@@ -96,6 +96,7 @@ bool HoldsOnlyForeignImages(const std::filesystem::path& folder) {
 }  // namespace
 
 bool IsRecording(const std::filesystem::path& path) {
+  if (IsStream(path.string())) return true;
   if (!std::filesystem::is_directory(path)) {
     const std::filesystem::path file = RecordingName(path.string()).file;
     const std::string extension = LowerCaseExtension(file);
@@ -203,14 +204,17 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
       throw InputError(source + ": expected depth images, found " + how);
     }
   }
+  if (IsStream(source) || HoldsSeveralPgms(path)) {
+    return Prepared(source, OpenImageStream(source, options), UnitStated::kNo, options);
+  }
   if (IsDepthFileName(path) && std::filesystem::exists(path, error)) {
     return Prepared(source, OpenStill(path, options), UnitStated::kNo, options);
   }
   throw InputError(
       source +
       ": expected openni:, openni:URI, FILE.oni, FILE.xef, FILE.mkv, FILE.bag, FILE.db3, "
-      "FILE.mcap, arrays (.npy, .npz, .mat, .h5), a 16-bit PNG, TIFF or PGM, a folder of them, or "
-      "a data set, found " +
+      "FILE.mcap, arrays (.npy, .npz, .mat, .h5), a 16-bit PNG, TIFF or PGM, a folder of them, a "
+      "data set, or - (standard input), found " +
       (std::filesystem::exists(path, error) ? "a file of another name" : "no such file or folder"));
 }
 

@@ -15,12 +15,16 @@
 namespace ossa::depth {
 namespace {
 
-// Wraps a recording: converts its values to millimetres and its indices to times.
+// Wraps a recording or a stream: converts its values to millimetres and its indices to times.
 class PreparedSource final : public FrameSource {
  public:
   PreparedSource(std::string name, std::unique_ptr<FrameSource> source,
                  const SourceOptions& options)
-      : name_(std::move(name)), source_(std::move(source)), fps_(options.fps), note_(options.note) {
+      : name_(std::move(name)),
+        source_(std::move(source)),
+        fps_(options.fps),
+        note_(options.note),
+        keep_waiting_(options.keep_waiting) {
     const DepthCoding coding{options.depth_format, options.depth_scale.value_or(1000.0),
                              options.inverted_from};
     if (!coding.IsMillimetres()) table_ = MillimetreTable(coding);
@@ -52,7 +56,7 @@ class PreparedSource final : public FrameSource {
     return read;
   }
   const Camera& camera() const override { return source_->camera(); }
-  bool is_live() const override { return false; }
+  bool is_live() const override { return source_->is_live(); }
   std::optional<int64_t> frame_count() const override { return source_->frame_count(); }
 
  private:
@@ -67,11 +71,18 @@ class PreparedSource final : public FrameSource {
     note_(NoteKind::kWarning, text.str());
   }
 
-  // Examines the first non-empty frames. Constants: by hand, 0.1 s and 1 s at 30 Hz.
+  // Examines the first non-empty frames: of a recording 0.1 s or, where they show little, 1 s at 30
+  // Hz; of a stream no more than come soon, because whoever watches waits. Constants: by hand.
   void LookAhead(DepthCensus& census) {
     constexpr size_t kEnoughFrames = 3, kMostFrames = 30;
-    while (ahead_.size() < kMostFrames && (ahead_.size() < kEnoughFrames || !census.IsEnough())) {
+    constexpr int kLongestPause = 10;  // tenths of a second
+    const size_t most = is_live() ? kEnoughFrames : kMostFrames;
+    int pause = 0;
+    while (ahead_.size() < most && (ahead_.size() < kEnoughFrames || !census.IsEnough())) {
       ReadResult read = source_->Read(std::chrono::milliseconds(100));
+      pause = read.status == ReadStatus::kTimeout ? pause + 1 : 0;
+      const bool is_ended = pause > 0 && keep_waiting_ && !keep_waiting_();
+      if (is_ended || (is_live() && pause == kLongestPause)) break;
       if (read.status == ReadStatus::kFrame) census.Add(read.frame.view());
       const bool ended = read.status == ReadStatus::kEnd;
       if (read.status == ReadStatus::kFrame || ended) ahead_.push_back(std::move(read));
@@ -99,6 +110,7 @@ class PreparedSource final : public FrameSource {
   std::unique_ptr<FrameSource> source_;
   std::optional<double> fps_;
   std::function<void(NoteKind, const std::string&)> note_;  // may be empty
+  std::function<bool()> keep_waiting_;                      // may be empty
   std::vector<uint16_t> table_;  // millimetres of each value; empty: identity
   std::deque<ReadResult> ahead_;
   std::exception_ptr damage_;  // thrown after these frames
@@ -110,7 +122,7 @@ class PreparedSource final : public FrameSource {
 std::unique_ptr<FrameSource> Prepared(const std::string& name, std::unique_ptr<FrameSource> source,
                                       UnitStated unit, const SourceOptions& options) {
   const bool asked = options.depth_scale || options.depth_format != DepthFormat::kPlain;
-  if (source->is_live()) {
+  if (source->is_live() && unit == UnitStated::kYes) {
     if (asked || options.fps) {
       throw InputError(name +
                        ": expected a recording for --depth-scale, --depth-format and --fps, "

@@ -56,6 +56,14 @@ std::unique_ptr<FrameSource> OpenRos2Bag(const std::filesystem::path& path,
 std::unique_ptr<FrameSource> OpenXefFile(const std::filesystem::path& path,
                                          const SourceOptions& options);
 
+/// PGM images one after the other (IsStream, or a file that HoldsSeveralPgms): waits for the first
+/// one. A comment in an image's header may state its time, "# time_s SECONDS", and its camera,
+/// "# camera FX,FY,CX,CY". Without: it is when the image arrives (of a file, 30 a second), and the
+/// camera beside a file or by the size.
+std::unique_ptr<FrameSource> OpenImageStream(const std::string& source,
+                                             const SourceOptions& options);
+bool HoldsSeveralPgms(const std::filesystem::path& path);
+
 /// Arrays of NumPy, MATLAB or HDF5 (IsArrayName); array "": chosen by its name and shape. Read in a
 /// child process. The camera beside the file is that of a still.
 std::unique_ptr<FrameSource> OpenArrayFile(const std::filesystem::path& path,

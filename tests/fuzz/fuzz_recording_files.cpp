@@ -32,6 +32,7 @@ std::vector<std::string> ossa::fuzz::Seeds() {
   std::vector<std::string> seeds;
   for (const test::DamageSample& sample : test::PlainRecordings()) {
     seeds.push_back(KindOf(sample.name) + sample.bytes);
+    if (sample.name.ends_with(".pgm")) seeds.push_back(seeds.back() + sample.bytes);  // a recording
   }
   return seeds;
 }

@@ -222,8 +222,8 @@ void ShowDepthRecording(const SourceArguments& arguments) {
       camera.cy);
 }
 
-// The properties of a camera; images must be recorded first.
-void ShowDevice(const SourceArguments& arguments) {
+// The properties of a live camera; images must be recorded first.
+void ShowCamera(const SourceArguments& arguments) {
   const auto source = OpenSource(arguments, false);
   const depth::Camera& camera = source->camera();
   fmt::print("depth camera, {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f}\n", camera.width,
@@ -294,7 +294,7 @@ recon::BodySurface LoadSurface(const std::string& named) {
 }
 
 void Show(const SourceArguments& arguments, const std::string& surface, bool is_depth) {
-  if (IsDevice(arguments.name)) return ShowDevice(arguments);
+  if (IsLive(arguments.name)) return ShowCamera(arguments);
   const fs::path path = arguments.name;
   for (const FileKind& kind : kKinds) {
     const bool is_named_so = kind.extension != nullptr && HasEnding(arguments.name, kind.extension);
@@ -333,8 +333,9 @@ int Info(int argc, char** argv) {
       "--surface", surface,
       ".ossasurface to which an .ossaperson or .ossamesh belongs (default: the shipped one)");
   Parse(app, argc, argv);
-  if (!picture.empty() && IsDevice(file.name)) {
-    throw UsageError("--picture: " + file.name + ": expected a recording, found a device");
+  if (!picture.empty() && IsLive(file.name)) {
+    throw UsageError("--picture: " + file.name +
+                     ": expected a recording, found a device or a pipe");
   }
   RequireExists(file.name);
   if (!picture.empty()) WriteInfoPicture(file, picture);

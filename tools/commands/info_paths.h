@@ -13,9 +13,9 @@
 namespace ossa::commands {
 
 /// Throws InputError if there is no such file. FILE#truth, BAG#/topic and similar are files,
-/// too; devices are described by their driver.
+/// too; devices are described by their driver, pipes by their writer.
 inline void RequireExists(const std::string& file) {
-  if (IsDevice(file)) return;
+  if (IsLive(file)) return;
   const bool is_there =
       std::filesystem::exists(file) || std::filesystem::exists(recon::FindSkeletonFile(file)) ||
       (depth::IsRecording(file) && std::filesystem::exists(file.substr(0, file.rfind('#'))));

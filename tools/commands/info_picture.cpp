@@ -61,7 +61,8 @@ template <typename Take>
 int64_t ForEachFrame(const SourceArguments& arguments, Take take) {
   const auto source = OpenSource(arguments, true);
   if (source->is_live()) {
-    throw UsageError("--picture: expected a recording, a data set or a model, found a device");
+    throw UsageError(
+        "--picture: expected a recording, a data set or a model, found a device or a pipe");
   }
   int64_t frames = 0;
   Progress progress("looking", !CanMoveCursor());  // for who watches alone

@@ -73,7 +73,8 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
          "SOURCE", arguments.name,
          "openni: (first device), openni:URI, FILE.oni, FILE.xef, FILE.mkv, FILE.bag, FILE.db3, "
          "FILE.mcap, arrays (.npy, .npz, .mat, .h5), a 16-bit PNG, TIFF or PGM or a folder "
-         "of them, or a DATASET; openni:ossa://PATH plays a recording as a live device")
+         "of them, a DATASET, or - (PGM images on standard input); openni:ossa://PATH plays a "
+         "recording as a live device")
       ->required();
   std::string presets;
   for (const std::string_view name : depth::CameraPresetNames()) presets.append(name).append(", ");
@@ -103,6 +104,8 @@ void AddSourceOptions(CLI::App& app, SourceArguments& arguments) {
 }
 
 bool IsDevice(std::string_view source) { return source.starts_with("openni:"); }
+
+bool IsLive(const std::string& source) { return IsDevice(source) || depth::IsStream(source); }
 
 tracker::Turn ChooseTurn(const SourceArguments& arguments) {
   if (arguments.rotate == "auto") return tracker::Turn::kAuto;
@@ -149,8 +152,9 @@ void AddDeviceOptions(CLI::App& app, SourceArguments& arguments) {
 // No refusal: a file of defaults may have them for devices.
 void PrintUnreadDeviceOptions(const CLI::App& app, const SourceArguments& arguments, bool quiet) {
   if (quiet || IsDevice(arguments.name)) return;
-  for (const char* option : {"--wait", "--patience"}) {
-    if (app.count(option) == 0) continue;
+  for (const std::string option : {"--wait", "--patience"}) {
+    const bool is_read = option == "--patience" && depth::IsStream(arguments.name);
+    if (app.count(option) == 0 || is_read) continue;
     PrintError(fmt::format("ossa: {} is not read for a recording\n", option));
   }
 }
@@ -158,7 +162,7 @@ void PrintUnreadDeviceOptions(const CLI::App& app, const SourceArguments& argume
 std::unique_ptr<depth::FrameSource> OpenSource(const SourceArguments& arguments, bool quiet) {
   depth::SourceOptions options = DepthOptions(arguments, quiet);
   options.device_wait = Milliseconds(arguments.wait_s);
-  if (arguments.wait_s > 0) options.keep_waiting = MakeWaitCallback(arguments.name, quiet);
+  options.keep_waiting = MakeWaitCallback(arguments.name, quiet || !(arguments.wait_s > 0));
   return depth::OpenSource(arguments.name, options);
 }
 

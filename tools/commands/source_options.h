@@ -32,6 +32,9 @@ struct SourceArguments {
 /// Whether a SOURCE of this name is a device, or plays like one, and not a recording.
 bool IsDevice(std::string_view source);
 
+/// A device, or images that another program sends (depth::IsStream).
+bool IsLive(const std::string& source);
+
 /// Adds SOURCE, --camera, --depth-scale, --depth-format, --fps, --mirrored and --rotate.
 void AddSourceOptions(CLI::App& app, SourceArguments& arguments);
 tracker::Turn ChooseTurn(const SourceArguments& arguments);

@@ -168,8 +168,9 @@ void TrackAll(depth::FrameSource& source, tracker::Tracker& tracker, const Track
 std::map<int, recon::BoneLengths> MeasureBones(const TrackOptions& options) {
   const auto source = OpenSource(options.source, options.quiet);
   if (source->is_live()) {
-    throw UsageError(fmt::format("--bones recording: {}: expected a recording, found a device",
-                                 options.source.name));
+    throw UsageError(
+        fmt::format("--bones recording: {}: expected a recording, found a device or a pipe",
+                    options.source.name));
   }
   tracker::TrackerOptions measuring = options.tracker;
   measuring.keep_parts = measuring.trace = false;

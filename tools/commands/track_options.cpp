@@ -78,7 +78,7 @@ void PrintUnreadRefinement(const TrackOptions& options) {
 int DefaultLag(const TrackOptions& options) {
   constexpr int kMost = 2;  // frames; measured: docs/benchmarks/reconstruction.md, frames of lag
   const bool smoothed = RequireMethodInfo(options.tracker.method).smoothed_in_files;
-  return smoothed && !IsDevice(options.source.name) ? kMost : 0;
+  return smoothed && !IsLive(options.source.name) ? kMost : 0;
 }
 
 // What belongs to one camera goes with one source, what joins cameras with several.
@@ -95,10 +95,10 @@ void CheckSources(const CLI::App& app, const TrackOptions& options) {
   }
   if (!several) return;
   for (const std::string& name : options.Sources()) {
-    if (!IsDevice(name)) continue;
+    if (!IsLive(name)) continue;
     throw UsageError(
         fmt::format("track: {}: expected recordings where there are several sources, found a "
-                    "device: record each with 'ossa record' first",
+                    "device or a pipe: record each with 'ossa record' first",
                     name));
   }
   options.fuse.Check(options.Sources());

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <set>
 
 #include "depth/image/camera_io.h"
 #include "depth/image/camera_presets.h"
@@ -174,6 +176,50 @@ TEST(TrackCommand, EndsWithACompleteFileWhenADeviceDeliversNothing) {
       TrackTo("openni:ossa://" + (folder / "in").string(), out, {"--patience", "1"});
   EXPECT_EQ(result.exit_status, 0) << result.err;
   EXPECT_GE(recon::ReadSkeletons(out.string()).frames.size(), 1U);
+}
+
+// PNGs as PGM images one after the other.
+void WritePgms(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  std::ofstream out(file, std::ios::binary);
+  std::set<std::filesystem::path> pngs;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) pngs.insert(entry.path());
+  for (const auto& png : pngs) {
+    const auto image = depth::ReadDepthPng(png);
+    out << "P5\n" << image.width << " " << image.height << "\n65535\n";
+    for (const uint16_t depth : image.data) {
+      out.put(static_cast<char>(depth >> 8)).put(static_cast<char>(depth & 255));
+    }
+  }
+}
+
+TEST(TrackCommand, ImagesOnStandardInputGiveTheSkeletonsOfAFolder) {
+  OSSA_NEEDS_MODEL();
+  const TemporaryFolder folder;
+  WriteWalk(folder / "walk", 6);
+  WritePgms(folder / "walk", folder / "walk.pgm");
+  ASSERT_EQ(TrackTo(folder / "walk", folder / "folder.jsonl", {"--lag", "0"}).exit_status, 0);
+  const std::string images = folder / "walk.pgm", out = folder / "pipe.jsonl";
+  const CommandResult piped =
+      test::RunProgram({"/bin/sh", "-c",
+                        "cat " + images + " | " + test::OssaPath() +
+                            " track - --fps 30 --method none --out " + out});
+  ASSERT_EQ(piped.exit_status, 0) << piped.err;
+  EXPECT_NE(piped.out.find("6 frames, 0 dropped"), std::string::npos) << piped.out;
+  const auto text = [&](const char* name) {
+    std::ifstream file(folder / name);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(text("pipe.jsonl"), text("folder.jsonl"));
+}
+
+TEST(TrackCommand, RefusesStandardInputAmongSeveralSources) {
+  const TemporaryFolder folder;
+  const CommandResult result =
+      test::RunOssa({"track", "-", folder.path().string(), "--out", folder / "x.jsonl"});
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("-: expected recordings where there are several sources"),
+            std::string::npos)
+      << result.err;
 }
 
 }  // namespace

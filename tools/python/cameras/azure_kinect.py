@@ -1,6 +1,7 @@
 """Skeletons from an Azure Kinect by pyk4a (pip install pyk4a), or from a recording without it.
 
 Usage: azure_kinect.py [FILE.mkv]    a camera, or what k4arecorder recorded
+       azure_kinect.py --pipe | ossa view -
 """
 
 import sys
@@ -23,6 +24,9 @@ def images():
 
 
 if __name__ == "__main__":
+    if "--pipe" in sys.argv:
+        ossa.write_images(images())
+        sys.exit()
     tracker = ossa.Tracker()
     for image in ossa.open(sys.argv[1]) if len(sys.argv) > 1 else images():
         for body in tracker.track(*image).bodies:

@@ -1,8 +1,10 @@
 """Skeletons from a Kinect v1 by libfreenect's Python binding (pip install freenect).
 
+Usage: kinect_v1.py, or kinect_v1.py --pipe | ossa view -
 `ossa.open("openni:")` reads a Kinect v1 too, by ossa's own driver.
 """
 
+import sys
 import time
 
 import freenect
@@ -24,6 +26,9 @@ def images():
 
 
 if __name__ == "__main__":
+    if "--pipe" in sys.argv:
+        ossa.write_images(images())
+        sys.exit()
     tracker = ossa.Tracker()
     for image in images():
         for body in tracker.track(*image).bodies:

@@ -1,4 +1,9 @@
-"""Skeletons from an Orbbec Femto, Gemini or Astra by pyorbbecsdk (pip install pyorbbecsdk)."""
+"""Skeletons from an Orbbec Femto, Gemini or Astra by pyorbbecsdk (pip install pyorbbecsdk).
+
+Usage: orbbec.py, or orbbec.py --pipe | ossa view -
+"""
+
+import sys
 
 import numpy as np
 import pyorbbecsdk as ob
@@ -16,15 +21,24 @@ def image_of(depth):
     return depth_mm, camera, depth.get_timestamp_us() * 1e-6
 
 
+def images(pipeline):
+    """image_of each depth frame, as long as they come."""
+    while True:
+        frames = pipeline.wait_for_frames(1000)
+        depth = frames.get_depth_frame() if frames else None
+        if depth:
+            yield image_of(depth)
+
+
 if __name__ == "__main__":
     pipeline, config = ob.Pipeline(), ob.Config()
     profiles = pipeline.get_stream_profile_list(ob.OBSensorType.DEPTH_SENSOR)
     config.enable_stream(profiles.get_default_video_stream_profile())
     pipeline.start(config)
+    if "--pipe" in sys.argv:
+        ossa.write_images(images(pipeline))
+        sys.exit()
     tracker = ossa.Tracker()
-    while True:
-        frames = pipeline.wait_for_frames(1000)
-        depth = frames.get_depth_frame() if frames else None
-        if depth:
-            for body in tracker.track(*image_of(depth)).bodies:
-                print(body.id, body["Head"])
+    for image in images(pipeline):
+        for body in tracker.track(*image).bodies:
+            print(body.id, body["Head"])

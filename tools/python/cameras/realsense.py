@@ -1,6 +1,7 @@
 """Skeletons from a RealSense by pyrealsense2 (pip install pyrealsense2).
 
 Usage: realsense.py [FILE]    a camera, or what one recorded (.db3; by older versions .bag)
+       realsense.py --pipe | ossa view -
 """
 
 import sys
@@ -28,11 +29,14 @@ def images(pipeline):
 if __name__ == "__main__":
     config, pipeline = rs.config(), rs.pipeline()
     config.enable_stream(rs.stream.depth)
-    for file in sys.argv[1:]:
+    for file in [word for word in sys.argv[1:] if word != "--pipe"]:
         config.enable_device_from_file(file, repeat_playback=False)
     device = pipeline.start(config).get_device()
     if device.is_playback():
         device.as_playback().set_real_time(False)  # no frame is left out
+    if "--pipe" in sys.argv:
+        ossa.write_images(images(pipeline))
+        sys.exit()
     tracker = ossa.Tracker()
     for image in images(pipeline):
         for body in tracker.track(*image).bodies:

@@ -10,6 +10,7 @@
 Tracker           depth images to bodies; its results are Frame, Body, Fit, Mesh, Proposals
 Camera            intrinsics of a depth camera; Camera.preset("kinect-v2")
 open              any SOURCE of `ossa track`: devices, .oni, .mkv, bags of ROS, PNG folders
+write_images      a camera's images for `ossa track -` and `ossa view -`
 Forest            body parts and probabilities of one image
 Sequence          recorded skeletons: read_skeletons, read_recordings, write_skeletons
 reconstruct       methods that make recorded skeletons complete and plausible
@@ -42,6 +43,7 @@ from ._names import (
 )
 from ._native import InputError
 from ._native import version as __version__
+from ._pipe import write_images
 from ._reconstruct import reconstruct
 from ._sequences import Sequence
 from ._skeleton_files import read_recordings, read_skeletons, write_skeletons
@@ -85,5 +87,6 @@ __all__ = [
     "read_recordings",
     "read_skeletons",
     "reconstruct",
+    "write_images",
     "write_skeletons",
 ]
