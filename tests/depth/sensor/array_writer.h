@@ -4,6 +4,7 @@
 #include <hdf5.h>
 #include <matio.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -73,12 +74,54 @@ class MatWriter {
                  std::vector<T> numbers, matio_compression compression = MAT_COMPRESSION_ZLIB) {
     matvar_t* variable = Mat_VarCreate(name.c_str(), type, stored, static_cast<int>(shape.size()),
                                        shape.data(), numbers.data(), 0);
+    return Write(variable, compression);
+  }
+
+  /// Arrays in the cells of one row.
+  template <typename T>
+  MatWriter& AddCells(const std::string& name, matio_classes type, matio_types stored, Shape shape,
+                      std::vector<std::vector<T>> cells,
+                      matio_compression compression = MAT_COMPRESSION_ZLIB) {
+    std::vector<matvar_t*> inside;
+    for (std::vector<T>& numbers : cells) {
+      inside.push_back(Mat_VarCreate(nullptr, type, stored, static_cast<int>(shape.size()),
+                                     shape.data(), numbers.data(), 0));
+    }
+    inside.push_back(nullptr);
+    std::array<size_t, 2> row = {1, cells.size()};
+    return Write(
+        Mat_VarCreate(name.c_str(), MAT_C_CELL, MAT_T_CELL, 2, row.data(), inside.data(), 0),
+        compression);
+  }
+
+  /// Arrays as the fields "depth" of a struct array of one row, each beside a number "t".
+  template <typename T>
+  MatWriter& AddStructs(const std::string& name, matio_classes type, matio_types stored,
+                        Shape shape, std::vector<std::vector<T>> elements,
+                        matio_compression compression = MAT_COMPRESSION_ZLIB) {
+    std::array<const char*, 2> fields = {"t", "depth"};
+    std::array<size_t, 2> row = {1, elements.size()}, one = {1, 1};
+    matvar_t* variable = Mat_VarCreateStruct(name.c_str(), 2, row.data(), fields.data(), 2);
+    for (size_t i = 0; i < elements.size(); ++i) {
+      double time = static_cast<double>(i);
+      Mat_VarSetStructFieldByName(
+          variable, "t", i,
+          Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, one.data(), &time, 0));
+      Mat_VarSetStructFieldByName(
+          variable, "depth", i,
+          Mat_VarCreate(nullptr, type, stored, static_cast<int>(shape.size()), shape.data(),
+                        elements[i].data(), 0));
+    }
+    return Write(variable, compression);
+  }
+
+ private:
+  MatWriter& Write(matvar_t* variable, matio_compression compression) {
     Mat_VarWrite(file_, variable, compression);
     Mat_VarFree(variable);
     return *this;
   }
 
- private:
   mat_t* file_;
 };
 
@@ -107,6 +150,15 @@ class Hdf5Writer {
     H5Pclose(links);
     H5Sclose(space);
     return *this;
+  }
+
+  /// References to data sets, as MATLAB's cells are stored.
+  Hdf5Writer& Refer(const std::string& name, const std::vector<std::string>& to) {
+    std::vector<hobj_ref_t> references(to.size());
+    for (size_t i = 0; i < to.size(); ++i) {
+      H5Rcreate(&references[i], file_, to[i].c_str(), H5R_OBJECT, -1);
+    }
+    return Add(name, H5T_STD_REF_OBJ, {to.size(), 1}, references, "cell");
   }
 
  private:

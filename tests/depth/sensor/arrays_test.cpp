@@ -216,6 +216,38 @@ TEST(MatFiles, OfAnyTypeHaveTheirImages) {
   }
 }
 
+// Each image apart, as MATLAB has it.
+std::vector<std::vector<uint16_t>> MatlabImages() {
+  std::vector<std::vector<uint16_t>> images;
+  const std::vector<uint16_t> all = Numbers<uint16_t>("fcr");
+  for (size_t i = 0; i < kImages; ++i) {
+    const auto begin = all.begin() + static_cast<ptrdiff_t>(i * kHeight * kWidth);
+    images.emplace_back(begin, begin + static_cast<ptrdiff_t>(kHeight * kWidth));
+  }
+  return images;
+}
+
+TEST(MatFiles, HaveWhatIsInsideOfCellsAndStructs) {
+  const TemporaryFolder folder;
+  const Shape image = {kHeight, kWidth}, stack = {kHeight, kWidth, kImages};
+  for (const auto compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {
+    MatWriter(folder / "x.mat")
+        .AddCells("depth", MAT_C_UINT16, MAT_T_UINT16, image, MatlabImages(), compression)
+        .AddCells("other", MAT_C_UINT16, MAT_T_UINT16, image, MatlabImages(), compression);
+    ExpectImages(folder / "x.mat");
+    ExpectImages((folder / "x.mat").string() + "#other");
+    MatWriter(folder / "x.mat")
+        .AddStructs("frames", MAT_C_UINT16, MAT_T_UINT16, image, MatlabImages(), compression);
+    ExpectImages(folder / "x.mat");
+    ExpectImages((folder / "x.mat").string() + "#frames.depth");
+    MatWriter(folder / "x.mat")
+        .AddStructs("s", MAT_C_UINT16, MAT_T_UINT16, stack,
+                    std::vector<std::vector<uint16_t>>{Numbers<uint16_t>("fcr")}, compression);
+    ExpectImages(folder / "x.mat");
+    ExpectImages((folder / "x.mat").string() + "#s.depth");
+  }
+}
+
 TEST(MatFiles, ThatAreDamagedAreRefused) {
   const TemporaryFolder folder;
   MatWriter(folder / "x.mat")
@@ -267,6 +299,18 @@ TEST(Hdf5Files, OfMatlabHaveItsOrder) {
   Hdf5Writer(folder / "x.mat")
       .Add("depths", H5T_STD_U16LE, {kImages, kWidth, kHeight}, Numbers<uint16_t>("fcr"), "uint16");
   ExpectImages(folder / "x.mat");
+}
+
+TEST(Hdf5Files, OfMatlabHaveWhatIsInsideOfCells) {
+  const TemporaryFolder folder;
+  const auto images = MatlabImages();
+  Hdf5Writer(folder / "x.mat")
+      .Add("#refs#/c", H5T_STD_U16LE, {kWidth, kHeight}, images[0], "uint16")
+      .Add("#refs#/b", H5T_STD_U16LE, {kWidth, kHeight}, images[1], "uint16")
+      .Add("#refs#/aa", H5T_STD_U16LE, {kWidth, kHeight}, images[2], "uint16")
+      .Refer("camera/depth", {"#refs#/c", "#refs#/b", "#refs#/aa"});
+  ExpectImages(folder / "x.mat");
+  ExpectImages((folder / "x.mat").string() + "#camera/depth");
 }
 
 TEST(Hdf5Files, ThatAreCutShortAreRefused) {

@@ -42,11 +42,12 @@ class ArrayFile {
 std::unique_ptr<ArrayFile> OpenNpy(const std::filesystem::path& path);
 /// An archive of .npy files, compressed or not.
 std::unique_ptr<ArrayFile> OpenNpz(const std::filesystem::path& path);
-/// A MAT file of version 5, 6 or 7: its variables, not those inside of structs. Version 7.3 is
-/// HDF5.
+/// A MAT file of version 5, 6 or 7: its variables, those inside of structs and cells by MATLAB's
+/// names, s.depth, depth{7}. Version 7.3 is HDF5.
 std::unique_ptr<ArrayFile> OpenMat(const std::filesystem::path& path);
 bool IsHdf5(const std::filesystem::path& path);
-/// The data sets of an HDF5 file, in any group, named by their path.
+/// The data sets of an HDF5 file, in any group, named by their path; those to which another one
+/// refers, as MATLAB's cells do, by that one's and a number, depth{7}.
 std::unique_ptr<ArrayFile> OpenHdf5(const std::filesystem::path& path);
 
 }  // namespace ossa::depth

@@ -98,6 +98,18 @@ std::vector<ArrayStack> JoinSequences(std::vector<ArrayStack> stacks) {
   return joined;
 }
 
+// A sequence's name without what held its numbers: depth/, depth{}, frames().depth.
+std::string WithoutCounts(std::string name) {
+  for (const std::string_view brackets : {"{}", "()"}) {
+    for (size_t at; (at = name.find(brackets)) != std::string::npos;) name.erase(at, 2);
+  }
+  if (name.ends_with('/')) name.pop_back();
+  return name;
+}
+
+// "depth" of "camera/depth" and "camera.depth".
+std::string LastPart(const std::string& name) { return name.substr(name.find_last_of("/.") + 1); }
+
 std::string ListText(const std::vector<ArrayStack>& stacks) {
   constexpr size_t kNamed = 4;  // by hand: fits a line
   std::string text;
@@ -165,7 +177,7 @@ ArrayStack ChooseStack(const std::vector<ArrayInfo>& arrays, const std::string& 
   }
   if (!asked.empty()) {
     const auto sequence = std::find_if(stacks.begin(), stacks.end(), [&](const ArrayStack& stack) {
-      return stack.name == asked || stack.name == asked + "/";
+      return WithoutCounts(stack.name) == WithoutCounts(asked);
     });
     if (sequence != stacks.end()) return *sequence;
     throw InputError("expected images in '" + asked + "', found " + ListText(stacks));
@@ -180,8 +192,7 @@ ArrayStack ChooseStack(const std::vector<ArrayInfo>& arrays, const std::string& 
 const ArrayInfo* FindTimes(const std::vector<ArrayInfo>& arrays, size_t images) {
   const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const ArrayInfo& array) {
     const std::string name = LowerCase(array.name);
-    const bool is_time = name == "t" || name.ends_with("/t") ||
-                         name.find("time") != std::string::npos ||
+    const bool is_time = LastPart(name) == "t" || name.find("time") != std::string::npos ||
                          name.find("stamp") != std::string::npos;
     return is_time && array.shape.size() == 1 && array.shape.front() == images;
   });
@@ -193,8 +204,7 @@ const ArrayInfo* FindCameraMatrix(const std::vector<ArrayInfo>& arrays) {
       "k",       "depth_k",         "intrinsics",          "intrinsic",    "depth_intrinsics",
       "k_depth", "depth_intrinsic", "depth_camera_matrix", "camera_matrix"};
   const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const ArrayInfo& array) {
-    const std::string path = LowerCase(array.name);
-    const std::string name = path.substr(path.rfind('/') + 1);
+    const std::string name = LastPart(LowerCase(array.name));
     const bool is_named = std::find(kNames.begin(), kNames.end(), name) != kNames.end();
     return is_named && array.shape == std::vector<size_t>{3, 3};
   });

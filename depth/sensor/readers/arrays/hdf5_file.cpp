@@ -1,6 +1,7 @@
 #include <hdf5.h>
 
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -76,7 +77,10 @@ class Hdf5File final : public ArrayFile {
     if (H5Ovisit(file_.id(), H5_INDEX_NAME, H5_ITER_NATIVE, keep, &names) < 0) {
       throw InputError("its groups are damaged");
     }
-    for (const std::string& name : names) Add(name);
+    for (const std::string& name : names) {
+      if (!name.starts_with("#refs#/"))
+        AddAll(name, name, 0);  // there MATLAB keeps what cells hold
+    }
   }
 
   std::vector<ArrayInfo> List() override { return arrays_; }
@@ -114,7 +118,7 @@ class Hdf5File final : public ArrayFile {
     if (kept_ && kept_name_ == name) return kept_->id();
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     H5Pset_chunk_cache(access.id(), kSlots, kBytes, 1.0);
-    kept_.emplace(H5Dopen2(file_.id(), name.c_str(), access.id()), H5Dclose);
+    kept_.emplace(H5Dopen2(file_.id(), paths_.at(name).c_str(), access.id()), H5Dclose);
     kept_name_ = name;
     return kept_->id();
   }
@@ -132,17 +136,51 @@ class Hdf5File final : public ArrayFile {
     return lengths;
   }
 
-  void Add(const std::string& name) {
-    const Handle data(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  // The data set at this path, or all to which it refers.
+  void AddAll(const std::string& path, const std::string& name, int depth) {
+    constexpr int kDeepest = 8;  // by hand: against circles
+    const Handle data(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose);
     if (!data) return;
     const Handle type(H5Dget_type(data.id()), H5Tclose);
-    const Handle space(H5Dget_space(data.id()), H5Sclose);
-    const auto format = FormatOf(type.id());
+    if (H5Tequal(type.id(), H5T_STD_REF_OBJ) <= 0) return Add(data.id(), type.id(), path, name);
+    if (depth == kDeepest) return;
+    const std::vector<std::string> paths = ReferencesOf(data.id());
+    for (size_t i = 0; i < paths.size(); ++i) {
+      if (!paths[i].empty()) AddAll(paths[i], name + "{" + std::to_string(i + 1) + "}", depth + 1);
+    }
+  }
+
+  // The paths of what a data set of references refers to; "" for nothing.
+  static std::vector<std::string> ReferencesOf(hid_t data) {
+    constexpr hssize_t kMost = 100'000;  // by hand: against damage
+    constexpr size_t kLongest = 1000;    // characters, by hand
+    const Handle space(H5Dget_space(data), H5Sclose);
+    const hssize_t count = H5Sget_simple_extent_npoints(space.id());
+    if (count < 1 || count > kMost) return {};
+    std::vector<hobj_ref_t> references(static_cast<size_t>(count));
+    if (H5Dread(data, H5T_STD_REF_OBJ, H5S_ALL, H5S_ALL, H5P_DEFAULT, references.data()) < 0) {
+      return {};
+    }
+    std::vector<std::string> paths;
+    for (const hobj_ref_t& reference : references) {
+      std::string path(kLongest, '\0');
+      const ssize_t length =
+          H5Rget_name(data, H5R_OBJECT, &reference, path.data(), path.size() + 1);
+      path.resize(std::min(path.size(), static_cast<size_t>(std::max<ssize_t>(length, 0))));
+      paths.push_back(std::move(path));
+    }
+    return paths;
+  }
+
+  void Add(hid_t data, hid_t type, const std::string& path, const std::string& name) {
+    const Handle space(H5Dget_space(data), H5Sclose);
+    const auto format = FormatOf(type);
     if (!format || H5Sget_simple_extent_type(space.id()) == H5S_NULL) return;
-    ArrayInfo info{name, *format, {}, H5Aexists(data.id(), "MATLAB_class") > 0};
+    ArrayInfo info{name, *format, {}, H5Aexists(data, "MATLAB_class") > 0};
     for (const hsize_t length : LengthsOf(space.id())) info.shape.push_back(length);
     if (std::find(info.shape.begin(), info.shape.end(), 0) != info.shape.end()) return;
     std::erase(info.shape, 1);
+    paths_[name] = path;
     arrays_.push_back(std::move(info));
   }
 
@@ -150,6 +188,7 @@ class Hdf5File final : public ArrayFile {
   std::optional<Handle> kept_;
   std::string kept_name_;
   std::vector<ArrayInfo> arrays_;
+  std::map<std::string, std::string> paths_;  // of arrays by name
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <fstream>
+#include <map>
 #include <new>
 #include <optional>
 #include <span>
@@ -100,7 +101,11 @@ class MatFile final : public ArrayFile {
   explicit MatFile(const std::filesystem::path& path)
       : file_((CheckElements(path), Mat_Open(path.c_str(), MAT_ACC_RDONLY))) {
     if (!file_) throw InputError("expected a MAT file of MATLAB or Octave");
-    while (matvar_t* next = Mat_VarReadNextInfo(file_.get())) Add(Variable(next));
+    while (matvar_t* next = Mat_VarReadNextInfo(file_.get())) {
+      const Variable variable(next);
+      if (variable->name == nullptr) continue;
+      AddAll(*variable, {variable->name, {}}, variable->name);
+    }
   }
 
   std::vector<ArrayInfo> List() override { return arrays_; }
@@ -120,25 +125,87 @@ class MatFile final : public ArrayFile {
   };
   using Variable = std::unique_ptr<matvar_t, Free>;
 
-  void Add(Variable variable) {
-    const auto format = FormatOf(variable->class_type);
-    if (!format || variable->isComplex != 0 || variable->isLogical != 0) return;
-    if (variable->name == nullptr || variable->rank < 1) return;
-    ArrayInfo info{variable->name, *format, {}, true};
-    for (int i = variable->rank - 1; i >= 0; --i) info.shape.push_back(variable->dims[i]);
+  // A cell, or a field of an element of a struct array.
+  struct Member {
+    size_t element = 0;
+    std::optional<size_t> field;  // none: a cell
+
+    matvar_t* In(matvar_t& whole) const {
+      return field ? Mat_VarGetStructFieldByIndex(&whole, *field, element)
+                   : Mat_VarGetCell(&whole, static_cast<int>(element));
+    }
+  };
+  // An array of numbers: in which variable, and where inside of it.
+  struct Place {
+    std::string variable;
+    std::vector<Member> members;
+  };
+
+  static size_t ElementsOf(const matvar_t& variable) {
+    size_t elements = 1;
+    for (int i = 0; i < variable.rank; ++i) elements *= variable.dims[i];
+    return elements;
+  }
+
+  // The variable, or all that is inside of it, by MATLAB's names: s.depth, frames(3).depth,
+  // depth{7}.
+  void AddAll(matvar_t& variable, const Place& place, const std::string& name) {
+    constexpr size_t kDeepest = 8, kMost = 100'000;  // by hand: against damage
+    if (place.members.size() > kDeepest || arrays_.size() >= kMost) return;
+    const bool is_struct = variable.class_type == MAT_C_STRUCT;
+    if (!is_struct && variable.class_type != MAT_C_CELL) return Add(variable, place, name);
+    if (variable.rank < 1 || variable.data == nullptr) return;
+    const size_t elements = ElementsOf(variable);
+    const size_t fields = is_struct ? Mat_VarGetNumberOfFields(&variable) : 1;
+    char* const* names = is_struct ? Mat_VarGetStructFieldnames(&variable) : nullptr;
+    for (size_t element = 0; element < std::min(elements, kMost); ++element) {
+      const std::string number = std::to_string(element + 1);
+      for (size_t field = 0; field < fields; ++field) {
+        const Member member{element, is_struct ? std::optional(field) : std::nullopt};
+        matvar_t* inside = member.In(variable);
+        if (inside == nullptr) continue;
+        Place there = place;
+        there.members.push_back(member);
+        const std::string text = is_struct
+                                     ? (elements > 1 ? "(" + number + ")." : ".") + names[field]
+                                     : "{" + number + "}";
+        AddAll(*inside, there, name + text);
+      }
+    }
+  }
+
+  void Add(const matvar_t& variable, const Place& place, const std::string& name) {
+    const auto format = FormatOf(variable.class_type);
+    if (!format || variable.isComplex != 0 || variable.isLogical != 0 || variable.rank < 1) return;
+    ArrayInfo info{name, *format, {}, true};
+    for (int i = variable.rank - 1; i >= 0; --i) info.shape.push_back(variable.dims[i]);
     if (std::find(info.shape.begin(), info.shape.end(), 0) != info.shape.end()) return;
     std::erase(info.shape, 1);
+    places_[name] = place;
     arrays_.push_back(std::move(info));
   }
 
+  // The place's array, without its numbers; valid until another variable's is.
+  matvar_t* Find(const Place& place) {
+    if (opened_name_ != place.variable) {
+      opened_.reset(Mat_VarReadInfo(file_.get(), place.variable.c_str()));
+      opened_name_ = place.variable;
+    }
+    matvar_t* found = opened_.get();
+    for (const Member& member : place.members) {
+      if (found != nullptr) found = member.In(*found);
+    }
+    return found;
+  }
+
   std::vector<uint8_t> ReadWhole(const ArrayInfo& array) {
-    const Variable variable(Mat_VarReadInfo(file_.get(), array.name.c_str()));
-    if (!variable) throw InputError(array.name + ": cannot be read");
+    matvar_t* variable = Find(places_.at(array.name));
+    if (variable == nullptr) throw InputError(array.name + ": cannot be read");
     const auto rank = static_cast<size_t>(variable->rank);
     std::vector<int> start(rank, 0), stride(rank, 1), edge(rank);
     for (size_t i = 0; i < rank; ++i) edge[i] = static_cast<int>(variable->dims[i]);
     std::vector<uint8_t> numbers(array.SliceCount() * array.SliceBytes());
-    if (Mat_VarReadData(file_.get(), variable.get(), numbers.data(), start.data(), stride.data(),
+    if (Mat_VarReadData(file_.get(), variable, numbers.data(), start.data(), stride.data(),
                         edge.data()) != 0) {
       throw InputError(array.name + ": damaged or cut short");
     }
@@ -147,6 +214,9 @@ class MatFile final : public ArrayFile {
 
   std::unique_ptr<mat_t, Free> file_;
   std::vector<ArrayInfo> arrays_;
+  std::map<std::string, Place> places_;  // of arrays by name
+  Variable opened_;
+  std::string opened_name_;
   std::vector<uint8_t> whole_;
   std::string whole_name_;
 };
