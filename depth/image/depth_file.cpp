@@ -56,17 +56,18 @@ bool IsDepthFileName(const fs::path& path) {
   return is_image && !path.filename().string().starts_with(".");
 }
 
+Image<uint16_t> ToDepth(const NumberImage& image) {
+  const bool is_float = image.format.kind == NumberKind::kFloat;
+  const auto unit_mm = is_float ? GuessUnit_mm(image.format, image.numbers) : std::nullopt;
+  Image<uint16_t> depth(image.size.width, image.size.height);
+  depth.data = DepthsOf(image.format, image.numbers, unit_mm.value_or(1.0));
+  return depth;
+}
+
 Image<uint16_t> ReadDepthFile(const fs::path& path) {
   const Read read = ReaderOf(path);
   if (read == nullptr) return ReadDepthPng(path);
-  return NamingTheFile(path, [&] {
-    const NumberImage image = ReadDepthNumbers(read, path, ReadPart::kAll);
-    const bool is_float = image.format.kind == NumberKind::kFloat;
-    const auto unit_mm = is_float ? GuessUnit_mm(image.format, image.numbers) : std::nullopt;
-    Image<uint16_t> depth(image.size.width, image.size.height);
-    depth.data = DepthsOf(image.format, image.numbers, unit_mm.value_or(1.0));
-    return depth;
-  });
+  return NamingTheFile(path, [&] { return ToDepth(ReadDepthNumbers(read, path, ReadPart::kAll)); });
 }
 
 ImageSize ReadDepthFileSize(const fs::path& path) {

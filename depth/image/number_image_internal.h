@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,29 @@ enum class ReadPart { kHeader, kAll };
 NumberImage ReadPgm(const std::filesystem::path& path, ReadPart part);
 /// TIFF in rows, of one image: integers and floats, in any compression of libtiff.
 NumberImage ReadTiff(const std::filesystem::path& path, ReadPart part);
+
+class TiffFile;
+/// The images of a TIFF file of several pages: those of the first one's size and format.
+class TiffPages {
+ public:
+  /// Throws InputError for what is no TIFF file.
+  explicit TiffPages(const std::filesystem::path& path);
+  ~TiffPages();
+  const NumberImage& first() const { return first_; }  // without numbers
+  int count() const { return count_; }
+  /// Goes to the first, then to each next one; false behind the last.
+  bool Next();
+  /// The image there. Throws InputError if it is damaged.
+  NumberImage Read();
+
+ private:
+  std::unique_ptr<TiffFile> file_;
+  NumberImage first_;
+  int count_ = 0, next_ = 0;
+};
+
+/// The depths of one channel of 16 bits or more; floats by their range (GuessUnit_mm).
+Image<uint16_t> ToDepth(const NumberImage& image);
 /// NumPy's .npy of an array of two dimensions longer than 1.
 NumberImage ReadNpy(const std::filesystem::path& path, ReadPart part);
 

@@ -25,6 +25,9 @@ int KeepError(TIFF*, void* kept, const char*, const char* format, va_list argume
 
 int KeepNoWarning(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 
+}  // namespace
+
+// A TIFF file at one of its pages, first the first.
 class TiffFile {
  public:
   explicit TiffFile(const std::filesystem::path& path) : name_(path.string()) {
@@ -71,9 +74,15 @@ class TiffFile {
         Refuse("damaged in row " + std::to_string(y));
       }
     }
-    if (TIFFReadDirectory(tiff_.get()) != 0 && Short(TIFFTAG_SAMPLESPERPIXEL) == 1) {
-      Refuse("expected one image, found several pages: 'tiffsplit FILE' makes one file of each");
-    }
+  }
+
+  // The next page; false behind the last one.
+  bool GoOn() {
+    error_.clear();
+    return TIFFReadDirectory(tiff_.get()) != 0;
+  }
+  [[noreturn]] void Refuse(const std::string& what) const {
+    throw InputError(name_ + ": " + what + (error_.empty() ? "" : " (" + error_ + ")"));
   }
 
  private:
@@ -87,20 +96,52 @@ class TiffFile {
     TIFFGetFieldDefaulted(tiff_.get(), tag, &value);
     return value;
   }
-  [[noreturn]] void Refuse(const std::string& what) const {
-    throw InputError(name_ + ": " + what + (error_.empty() ? "" : " (" + error_ + ")"));
-  }
 
   std::string name_, error_;
   std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff_{nullptr, TIFFClose};
 };
+
+namespace {
+
+// Thumbnails and reductions of the images are other pages.
+bool IsLikeTheFirst(TiffFile& file, const NumberImage& first) {
+  const NumberImage page = file.ReadHeader();
+  return page.size == first.size && page.format == first.format && page.channels == first.channels;
+}
 
 }  // namespace
 
 NumberImage ReadTiff(const std::filesystem::path& path, ReadPart part) {
   TiffFile file(path);
   NumberImage image = file.ReadHeader();
-  if (part == ReadPart::kAll && image.channels == 1) file.ReadRows(image);
+  if (part == ReadPart::kHeader || image.channels != 1) return image;
+  file.ReadRows(image);
+  while (file.GoOn()) {
+    if (!IsLikeTheFirst(file, image)) continue;
+    file.Refuse(
+        "expected one image, found several pages: as a SOURCE of its own it is a recording");
+  }
+  return image;
+}
+
+TiffPages::TiffPages(const std::filesystem::path& path)
+    : file_(std::make_unique<TiffFile>(path)), first_(file_->ReadHeader()), count_(1) {
+  while (file_->GoOn()) count_ += IsLikeTheFirst(*file_, first_) ? 1 : 0;
+  file_ = std::make_unique<TiffFile>(path);
+}
+
+TiffPages::~TiffPages() = default;
+
+bool TiffPages::Next() {
+  if (next_ == count_) return false;
+  while (next_ > 0 && file_->GoOn() && !IsLikeTheFirst(*file_, first_)) continue;
+  ++next_;
+  return true;
+}
+
+NumberImage TiffPages::Read() {
+  NumberImage image = file_->ReadHeader();
+  file_->ReadRows(image);
   return image;
 }
 

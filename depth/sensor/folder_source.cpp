@@ -179,33 +179,21 @@ std::optional<Camera> CameraOfOthers(const fs::path& folder, ImageSize size,
   return std::nullopt;
 }
 
-// The camera by option, else by camera.json or another file in the folder, else by image size.
-Camera ChooseCamera(const fs::path& folder, const std::optional<Camera>& stated, ImageSize size,
-                    const SourceOptions& options) {
-  if (options.camera) return ChosenCamera(options, size.width, size.height);
-  return stated ? *stated : CameraByImageSize(folder.string(), size.width, size.height, options);
-}
-
 std::unique_ptr<FrameSource> OpenFrames(FolderListing frames, const fs::path& folder,
                                         const SourceOptions& options) {
-  const ImageSize size = frames.size;
-  const std::optional<Camera> stated =
-      options.camera ? std::nullopt : CameraFileIn(folder, size, options);
-  return std::make_unique<FolderSource>(folder.string(), std::move(frames),
-                                        ChooseCamera(folder, stated, size, options), options);
+  const Camera camera = FileCamera(folder.string(), folder, frames.size, options);
+  return std::make_unique<FolderSource>(folder.string(), std::move(frames), camera, options);
 }
 
 std::unique_ptr<FrameSource> OpenDatasetFrames(FolderListing frames, const fs::path& folder,
                                                const SourceOptions& options) {
   const ImageSize size = frames.size;
   const fs::path manifest = folder / "manifest.json";
-  std::optional<Camera> stated;
-  if (!options.camera) stated = CameraFileIn(folder, size, options);
-  if (!options.camera && !stated) {
-    stated = StatedCamera(ReadManifestCamera(manifest), manifest, size);
-  }
-  return std::make_unique<FolderSource>(folder.string(), std::move(frames),
-                                        ChooseCamera(folder, stated, size, options), options);
+  std::optional<Camera> camera;
+  if (options.camera) camera = ChosenCamera(options, size.width, size.height);
+  if (!camera) camera = CameraFileIn(folder, size, options);
+  if (!camera) camera = StatedCamera(ReadManifestCamera(manifest), manifest, size);
+  return std::make_unique<FolderSource>(folder.string(), std::move(frames), *camera, options);
 }
 
 FolderListing OneFrame(const fs::path& image) {
@@ -231,6 +219,14 @@ std::optional<Camera> CameraFileIn(const fs::path& folder, ImageSize size,
   const fs::path file = folder / "camera.json";
   return fs::exists(file) ? ReadStatedCamera(file, size, options)
                           : CameraOfOthers(folder, size, options);
+}
+
+Camera FileCamera(const std::string& name, const fs::path& folder, ImageSize size,
+                  const SourceOptions& options) {
+  if (options.camera) return ChosenCamera(options, size.width, size.height);
+  const std::optional<Camera> stated =
+      folder.empty() ? std::nullopt : CameraFileIn(folder, size, options);
+  return stated ? *stated : CameraByImageSize(name, size.width, size.height, options);
 }
 
 bool IsCentreNear(const Camera& camera) {

@@ -224,13 +224,6 @@ class ImageStream final : public FrameSource {
     return result;
   }
 
-  Camera UnremarkedCamera(ImageSize size) const {
-    if (options_.camera) return ChosenCamera(options_, size.width, size.height);
-    const std::optional<Camera> beside =
-        folder_.empty() ? std::nullopt : CameraFileIn(folder_, size, options_);
-    return beside ? *beside : CameraByImageSize(name_, size.width, size.height, options_);
-  }
-
   // By option, else as the images say, else by a file beside them or the size of the first one.
   const Camera& CameraOf(const Remarks& remarks) {
     const ImageSize size = header_->size;
@@ -239,7 +232,7 @@ class ImageStream final : public FrameSource {
       stated.camera = remarks.camera;
       camera_ = ChosenCamera(stated, size.width, size.height);
     } else if (!size_) {
-      camera_ = UnremarkedCamera(size);
+      camera_ = FileCamera(name_, folder_, size, options_);
     }
     size_ = size;
     return camera_;

@@ -207,6 +207,9 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
   if (IsStream(source) || HoldsSeveralPgms(path)) {
     return Prepared(source, OpenImageStream(source, options), UnitStated::kNo, options);
   }
+  if (HoldsSeveralPages(path)) {
+    return Prepared(source, OpenTiffPages(path, options), UnitStated::kNo, options);
+  }
   if (IsDepthFileName(path) && std::filesystem::exists(path, error)) {
     return Prepared(source, OpenStill(path, options), UnitStated::kNo, options);
   }

@@ -64,6 +64,12 @@ std::unique_ptr<FrameSource> OpenImageStream(const std::string& source,
                                              const SourceOptions& options);
 bool HoldsSeveralPgms(const std::filesystem::path& path);
 
+/// The pages of a TIFF file, 30 images a second, the camera beside it as that of a still. Damaged
+/// ones are skipped, counted as dropped, and reported at the end.
+std::unique_ptr<FrameSource> OpenTiffPages(const std::filesystem::path& path,
+                                           const SourceOptions& options);
+bool HoldsSeveralPages(const std::filesystem::path& path);
+
 /// Arrays of NumPy, MATLAB or HDF5 (IsArrayName); array "": chosen by its name and shape. Read in a
 /// child process. The camera beside the file is that of a still.
 std::unique_ptr<FrameSource> OpenArrayFile(const std::filesystem::path& path,
@@ -73,6 +79,11 @@ std::unique_ptr<FrameSource> OpenArrayFile(const std::filesystem::path& path,
 /// one. Throws InputError for a damaged camera.json.
 std::optional<Camera> CameraFileIn(const std::filesystem::path& folder, ImageSize size,
                                    const SourceOptions& options);
+
+/// The camera of images: by option, else by a file in their folder (unless that is ""), else by
+/// their size.
+Camera FileCamera(const std::string& name, const std::filesystem::path& folder, ImageSize size,
+                  const SourceOptions& options);
 
 /// `options.camera` for images of this size. Presets describe the unmirrored sensor; for mirrored
 /// images they are mirrored, like all cameras of such images.

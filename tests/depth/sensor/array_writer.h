@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,10 +32,6 @@ std::string NpyBytes(const std::string& type, const Shape& shape, const std::vec
   bytes += header;
   bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T));
   return bytes;
-}
-
-inline void WriteBytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 /// An .npz file of arrays by name.

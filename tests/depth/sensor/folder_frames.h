@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ inline void WriteFrame(const std::filesystem::path& path, uint16_t value, int wi
                        int height = 6) {
   const depth::Image<uint16_t> image(width, height, value);
   depth::WriteDepthPng(path, {image.data.data(), width, height, width});
+}
+
+inline void WriteBytes(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 inline depth::ReadResult Next(depth::FrameSource& source) {

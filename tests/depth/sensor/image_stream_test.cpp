@@ -21,10 +21,13 @@ using test::ExpectRefused;
 using test::FramesOf;
 using test::Notes;
 using test::TemporaryFolder;
+using test::WriteBytes;
 
 constexpr int kWidth = 64, kHeight = 48;
 
-std::vector<uint16_t> Depths(int i) { return test::ExampleFrame(i, kWidth, kHeight).depth_mm; }
+std::vector<uint16_t> StreamDepths(int i) {
+  return test::ExampleFrame(i, kWidth, kHeight).depth_mm;
+}
 
 std::string Pgm(const std::vector<uint16_t>& depths, const std::string& comments = "",
                 int width = kWidth, int height = kHeight) {
@@ -37,11 +40,7 @@ std::string Pgm(const std::vector<uint16_t>& depths, const std::string& comments
   return text;
 }
 
-std::string TwoImages() { return Pgm(Depths(0)) + Pgm(Depths(1)); }
-
-void Write(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
+std::string TwoImages() { return Pgm(StreamDepths(0)) + Pgm(StreamDepths(1)); }
 
 // A named pipe and the program that writes into it.
 class PipeTest : public testing::Test {
@@ -51,7 +50,7 @@ class PipeTest : public testing::Test {
   std::string name() const { return folder_ / "camera"; }
   void Send(const std::string& bytes) {
     if (writer_.joinable()) writer_.join();
-    writer_ = std::jthread([this, bytes] { Write(name(), bytes); });
+    writer_ = std::jthread([this, bytes] { WriteBytes(name(), bytes); });
   }
   void ExpectRefusal(const std::string& bytes, const std::string& text) {
     Send(bytes);
@@ -64,14 +63,14 @@ class PipeTest : public testing::Test {
 };
 
 TEST_F(PipeTest, ImagesAreReadAsTheyCome) {
-  Send(TwoImages() + "\n" + Pgm(Depths(2)));
+  Send(TwoImages() + "\n" + Pgm(StreamDepths(2)));
   const auto source = OpenSource(name());
   EXPECT_TRUE(source->is_live());
   EXPECT_EQ(source->camera().width, kWidth);
   const auto frames = FramesOf(*source);
   ASSERT_EQ(frames.size(), 3u);
   for (const int i : {0, 1, 2}) {
-    EXPECT_EQ(frames[static_cast<size_t>(i)].depth_mm, Depths(i));
+    EXPECT_EQ(frames[static_cast<size_t>(i)].depth_mm, StreamDepths(i));
     EXPECT_EQ(frames[static_cast<size_t>(i)].index, i);
   }
   EXPECT_EQ(frames[0].time_s, 0.0);
@@ -83,16 +82,16 @@ TEST_F(PipeTest, AReaderIsNotHeldUpByASilentWriter) {
   std::ofstream writer;
   std::jthread opening([&] {
     writer.open(name(), std::ios::binary);
-    writer << TwoImages() << Pgm(Depths(2)) << std::flush;
+    writer << TwoImages() << Pgm(StreamDepths(2)) << std::flush;
   });
   const auto source = OpenSource(name());
   opening.join();
   for (int i = 0; i < 3; ++i) EXPECT_EQ(test::Next(*source).status, ReadStatus::kFrame);
   EXPECT_EQ(test::Next(*source).status, ReadStatus::kTimeout);
-  writer << Pgm(Depths(3)).substr(0, 500) << std::flush;
+  writer << Pgm(StreamDepths(3)).substr(0, 500) << std::flush;
   EXPECT_EQ(test::Next(*source).status, ReadStatus::kTimeout);
-  writer << Pgm(Depths(3)).substr(500) << std::flush;
-  EXPECT_EQ(source->Read(std::chrono::seconds(5)).frame.depth_mm, Depths(3));
+  writer << Pgm(StreamDepths(3)).substr(500) << std::flush;
+  EXPECT_EQ(source->Read(std::chrono::seconds(5)).frame.depth_mm, StreamDepths(3));
   writer.close();
   EXPECT_EQ(source->Read(std::chrono::seconds(5)).status, ReadStatus::kEnd);
 }
@@ -105,9 +104,9 @@ TEST_F(PipeTest, WaitingForTheFirstImageCanBeEnded) {
 
 TEST_F(PipeTest, CommentsStateTimesAndCamera) {
   const std::string camera = "# camera 70.5,71,30,20\n";
-  Send(Pgm(Depths(0), "# anything\n# time_s 1700000000.25\n" + camera) +
-       Pgm(Depths(1), "#time_s 1700000000.5\n") +
-       Pgm(Depths(2), "# time_s 1700000001\n# camera 80,80,31,23\n"));
+  Send(Pgm(StreamDepths(0), "# anything\n# time_s 1700000000.25\n" + camera) +
+       Pgm(StreamDepths(1), "#time_s 1700000000.5\n") +
+       Pgm(StreamDepths(2), "# time_s 1700000001\n# camera 80,80,31,23\n"));
   const auto frames = FramesOf(*OpenSource(name()));
   ASSERT_EQ(frames.size(), 3u);
   EXPECT_EQ(frames[0].time_s, 0.0);
@@ -119,8 +118,8 @@ TEST_F(PipeTest, CommentsStateTimesAndCamera) {
 }
 
 TEST_F(PipeTest, OptionsArePreferredToComments) {
-  Send(Pgm(Depths(0), "# camera 70,70,30,20\n# time_s 5\n") +
-       Pgm(Depths(1), "# camera 80,80,30,20\n# time_s 7\n"));
+  Send(Pgm(StreamDepths(0), "# camera 70,70,30,20\n# time_s 5\n") +
+       Pgm(StreamDepths(1), "# camera 80,80,30,20\n# time_s 7\n"));
   SourceOptions options;
   options.camera = ParseCamera("90,90,32,24");
   options.fps = 10.0;
@@ -129,11 +128,11 @@ TEST_F(PipeTest, OptionsArePreferredToComments) {
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[1].camera.fx, 90.0);
   EXPECT_EQ(frames[1].time_s, 0.1);
-  EXPECT_NEAR(frames[1].depth_mm[0], Depths(1)[0] / 2.0, 0.5);
+  EXPECT_NEAR(frames[1].depth_mm[0], StreamDepths(1)[0] / 2.0, 0.5);
 }
 
 TEST_F(PipeTest, DepthsOfAnotherUnitAreRefused) {
-  auto eighths = Depths(0);
+  auto eighths = StreamDepths(0);
   for (uint16_t& depth : eighths) depth = static_cast<uint16_t>(depth << 3);
   ExpectRefusal(Pgm(eighths) + Pgm(eighths) + Pgm(eighths), "--depth-scale 8000");
 }
@@ -147,17 +146,19 @@ TEST_F(PipeTest, WhatIsNoImageIsRefusedByItsNumber) {
   ExpectRefusal("P5 64 x", "image 0: expected the height of a PGM image, 1 to 8192");
   ExpectRefusal("P5 64 48 65535x", "image 0: expected a blank behind the brightest value");
   ExpectRefusal("P5 #" + std::string(5000, 'x'), "image 0: expected a PGM header of at most");
-  ExpectRefusal(Pgm(Depths(0)) + Pgm(Depths(1), "", kHeight, kWidth),
+  ExpectRefusal(Pgm(StreamDepths(0)) + Pgm(StreamDepths(1), "", kHeight, kWidth),
                 "image 1: expected 64x48 like the others, found 48x64");
-  ExpectRefusal(Pgm(Depths(0), "# time_s soon\n"), "image 0: # time_s: expected seconds, found");
-  ExpectRefusal(Pgm(Depths(0), "# time_s 1700000000250\n"), "image 0: # time_s: expected seconds");
-  ExpectRefusal(Pgm(Depths(0), "# camera 1,2\n"), "image 0: # camera: ");
-  ExpectRefusal(Pgm(Depths(0), "# time_s 1\n") + Pgm(Depths(1)),
+  ExpectRefusal(Pgm(StreamDepths(0), "# time_s soon\n"),
+                "image 0: # time_s: expected seconds, found");
+  ExpectRefusal(Pgm(StreamDepths(0), "# time_s 1700000000250\n"),
+                "image 0: # time_s: expected seconds");
+  ExpectRefusal(Pgm(StreamDepths(0), "# camera 1,2\n"), "image 0: # camera: ");
+  ExpectRefusal(Pgm(StreamDepths(0), "# time_s 1\n") + Pgm(StreamDepths(1)),
                 "image 1: expected a comment '# time_s SECONDS' like the first image's");
 }
 
 TEST_F(PipeTest, AnImageThatIsCutShortEndsItWithAWarning) {
-  Send(TwoImages() + Pgm(Depths(2)).substr(0, 3000));
+  Send(TwoImages() + Pgm(StreamDepths(2)).substr(0, 3000));
   Notes notes;
   EXPECT_EQ(FramesOf(*OpenSource(name(), notes.Options())).size(), 2u);
   EXPECT_TRUE(notes.Tell("image 2: cut short: the 2 images before it are complete"));
@@ -165,18 +166,18 @@ TEST_F(PipeTest, AnImageThatIsCutShortEndsItWithAWarning) {
 
 TEST(SeveralPgms, InAFileAreARecording) {
   const TemporaryFolder folder;
-  Write(folder / "all.PGM", TwoImages());
+  WriteBytes(folder / "all.PGM", TwoImages());
   const auto source = OpenSource(folder / "all.PGM");
   EXPECT_FALSE(source->is_live());
   const auto frames = FramesOf(*source);
   ASSERT_EQ(frames.size(), 2u);
-  EXPECT_EQ(frames[1].depth_mm, Depths(1));
+  EXPECT_EQ(frames[1].depth_mm, StreamDepths(1));
   EXPECT_EQ(frames[1].time_s, 1.0 / 30.0);
 }
 
 TEST(SeveralPgms, HaveTheCameraBesideThem) {
   const TemporaryFolder folder;
-  Write(folder / "all.pgm", TwoImages());
+  WriteBytes(folder / "all.pgm", TwoImages());
   WriteCameraJson(folder / "camera.json",
                   {.width = kWidth, .height = kHeight, .fx = 77, .fy = 77, .cx = 32, .cy = 24});
   EXPECT_EQ(OpenSource(folder / "all.pgm")->camera().fx, 77.0);
@@ -184,7 +185,7 @@ TEST(SeveralPgms, HaveTheCameraBesideThem) {
 
 TEST(SeveralPgms, OneAloneIsAStill) {
   const TemporaryFolder folder;
-  Write(folder / "one.pgm", Pgm(Depths(0)) + "\n");
+  WriteBytes(folder / "one.pgm", Pgm(StreamDepths(0)) + "\n");
   const auto source = OpenSource(folder / "one.pgm");
   EXPECT_EQ(source->frame_count(), 1);
   EXPECT_EQ(FramesOf(*source).size(), 1u);

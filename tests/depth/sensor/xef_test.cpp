@@ -1,7 +1,6 @@
 // Recordings of Kinect Studio, as KinectXEFTools describes their format.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 
 #include "depth/sensor/frame_source.h"
@@ -19,15 +18,12 @@ using test::ExpectRefused;
 using test::FramesOf;
 using test::Notes;
 using test::TemporaryFolder;
+using test::WriteBytes;
 using test::XefWriter;
 
 constexpr uint64_t kSecond = 10'000'000;  // ticks
 
 std::vector<uint16_t> Depths(int i) { return test::ExampleFrame(i, 512, 424).depth_mm; }
-
-void Write(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 
 // Three depth images among infrared ones and a record of unknown content; the third is late.
 std::string Recording(bool is_archived) {
@@ -44,7 +40,7 @@ std::string Recording(bool is_archived) {
 TEST(KinectStudio, RecordingsHaveTheirDepthImagesAndTimes) {
   const TemporaryFolder folder;
   for (const bool is_archived : {false, true}) {
-    Write(folder / "x.XEF", Recording(is_archived));
+    WriteBytes(folder / "x.XEF", Recording(is_archived));
     Notes notes;
     const auto source = OpenSource(folder / "x.XEF", notes.Options());
     EXPECT_EQ(source->frame_count(), 3);
@@ -65,7 +61,7 @@ TEST(KinectStudio, RecordingsHaveTheirDepthImagesAndTimes) {
 TEST(KinectStudio, RecordingsThatWereCutShortGiveTheImagesBefore) {
   const TemporaryFolder folder;
   const std::string sound = Recording(false);
-  Write(folder / "x.xef", sound.substr(0, sound.size() - 0x6b0 - 100));
+  WriteBytes(folder / "x.xef", sound.substr(0, sound.size() - 0x6b0 - 100));
   Notes notes;
   EXPECT_EQ(FramesOf(*OpenSource(folder / "x.xef", notes.Options())).size(), 2u);
   EXPECT_TRUE(notes.Tell("cut short: 2 depth images are complete"));
@@ -77,7 +73,7 @@ TEST(KinectStudio, DamagedEventsAreLeftOutWithAWarning) {
   constexpr size_t kEvent = 434204, kBetween = 0x7000 + 0x6000, kFooter = 0x6b2;
   const size_t first = bytes.size() - 3 * kEvent - kBetween - kFooter;
   bytes[first + 7] = '\x7f';  // the length of the first depth image
-  Write(folder / "x.xef", bytes);
+  WriteBytes(folder / "x.xef", bytes);
   Notes notes;
   EXPECT_EQ(FramesOf(*OpenSource(folder / "x.xef", notes.Options())).size(), 2u);
   EXPECT_TRUE(notes.Tell("damaged: " + std::to_string(kEvent + kBetween) + " bytes are no event"))
@@ -88,7 +84,7 @@ TEST(KinectStudio, DamagedCompressedImagesAreAnError) {
   const TemporaryFolder folder;
   std::string bytes = Recording(true);
   bytes[bytes.size() - 0x6b0 - 200] = static_cast<char>(bytes[bytes.size() - 0x6b0 - 200] ^ 8);
-  Write(folder / "x.xef", bytes);
+  WriteBytes(folder / "x.xef", bytes);
   ExpectRefused([&] { FramesOf(*OpenSource(folder / "x.xef")); }, "compressed bytes are damaged");
 }
 
@@ -96,9 +92,9 @@ TEST(KinectStudio, RecordingsWithoutDepthAreRefused) {
   const TemporaryFolder folder;
   XefWriter writer;
   writer.AddStream(1, "Nui IR", XefWriter::kInfrared).AddEvent(1, 0, 0, Depths(0));
-  Write(folder / "x.xef", writer.Finish());
+  WriteBytes(folder / "x.xef", writer.Finish());
   ExpectRefused([&] { OpenSource(folder / "x.xef"); }, "none in its streams: Nui IR");
-  Write(folder / "x.xef", "EVENTS");
+  WriteBytes(folder / "x.xef", "EVENTS");
   ExpectRefused([&] { OpenSource(folder / "x.xef"); }, "expected a recording of Kinect Studio");
 }
 
