@@ -44,7 +44,8 @@ std::optional<DepthList::Entry> ParseEntry(std::string_view line) {
   double time_s = 0.0;
   const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), time_s);
   const bool whole = error == std::errc() && end == time.data() + time.size();
-  if (!whole || !std::isfinite(time_s) || file.empty()) return std::nullopt;
+  constexpr double kLatest = 1e19;  // no unit: nanoseconds of three hundred years; an upper bound
+  if (!whole || !(std::abs(time_s) < kLatest) || file.empty()) return std::nullopt;
   return DepthList::Entry{time_s, file, rest, 0};
 }
 

@@ -200,6 +200,9 @@ std::unique_ptr<FrameSource> OpenByName(const std::string& source, const SourceO
     if (IsRos1Name(file)) return OpenBagFile(file, part, options);
     if (IsRos2Bag(file)) return OpenRos2Bag(file, part, options);
     if (IsArrayName(file)) return OpenArrayFile(file, part, options);
+    if (IsMsrDepthFile(path)) {
+      return Prepared(source, OpenMsrDepthFile(path, options), UnitStated::kNo, options);
+    }
     if (const char* how = DescribeConversion(file)) {
       throw InputError(source + ": expected depth images, found " + how);
     }

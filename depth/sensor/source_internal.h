@@ -70,6 +70,12 @@ std::unique_ptr<FrameSource> OpenTiffPages(const std::filesystem::path& path,
                                            const SourceOptions& options);
 bool HoldsSeveralPages(const std::filesystem::path& path);
 
+/// A depth file of MSR Daily Activity 3D or MSR Action3D, recognised by its counts and its size; 30
+/// images a second, the camera beside it as that of a still.
+bool IsMsrDepthFile(const std::filesystem::path& path);
+std::unique_ptr<FrameSource> OpenMsrDepthFile(const std::filesystem::path& path,
+                                              const SourceOptions& options);
+
 /// Arrays of NumPy, MATLAB or HDF5 (IsArrayName); array "": chosen by its name and shape. Read in a
 /// child process. The camera beside the file is that of a still.
 std::unique_ptr<FrameSource> OpenArrayFile(const std::filesystem::path& path,

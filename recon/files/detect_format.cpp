@@ -46,9 +46,9 @@ std::span<const SkeletonFormat> AllSkeletonFormats() {
     std::vector<SkeletonFormat> all;
     // Azure before ours: both are JSON with "bodies", and only Azure's other keys are unambiguous.
     // Generic tables last: they have the fewest marks of their own.
-    for (const auto formats :
-         {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(), KinectV2Formats(),
-          KinectV1Formats(), C3dFormats(), XefFormats(), StreamSaverFormats(), TableFormats()}) {
+    for (const auto formats : {AzureFormats(), PlainFormats(), PairedFormats(), UiPrmdFormats(),
+                               KinectV2Formats(), KinectV1Formats(), DataSetFormats(), C3dFormats(),
+                               XefFormats(), StreamSaverFormats(), TableFormats()}) {
       all.insert(all.end(), formats.begin(), formats.end());
     }
     return all;

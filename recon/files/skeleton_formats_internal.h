@@ -64,6 +64,7 @@ std::span<const SkeletonFormat> C3dFormats();          // skeleton_c3d.cpp
 std::span<const SkeletonFormat> StreamSaverFormats();  // skeleton_stream_saver.cpp
 std::span<const SkeletonFormat> TableFormats();        // skeleton_tables.cpp
 std::span<const SkeletonFormat> XefFormats();          // skeleton_xef.cpp
+std::span<const SkeletonFormat> DataSetFormats();      // skeleton_data_sets.cpp: MSRC-12 and others
 
 /// The file of times that Kinect Stream Saver writes beside its joints; not a recording itself.
 inline constexpr const char* kSaverTimes = "liTimeStamp.binary";

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 bool IsKinectV2(std::string_view format, std::string_view columns) {
   if (format == "ui-prmd-csv") return columns != "truth";
   return format == "labanotation-csv" || format == "keraal-kinect" || format == "ntu" ||
-         format == "ui-prmd-kinect" || format == "kinect-studio";
+         format == "ui-prmd-kinect" || format == "kinect-studio" || format == "pku-mmd";
 }
 
 bool AreRefinedJoints(const SkeletonSequence& sequence) {

@@ -83,6 +83,7 @@ viewer::ViewerOptions MakeViewerOptions(const ViewOptions& options) {
   // The driver's options in a camera's URI are not part of its name.
   if (IsDevice(options.source.name)) with.name = with.name.substr(0, with.name.find('?'));
   if (with.name.empty()) with.name = options.source.name;
+  if (with.name == "-") with.name = "standard input";
   with.body = LoadSkin(options.files.surface, options.mesh);
   for (const std::string& path : options.over) {
     recon::SkeletonSequence sequence = Read(path, options.source.fps);

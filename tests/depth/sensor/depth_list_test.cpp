@@ -37,6 +37,12 @@ TEST(DepthList, ReportsMalformedLinesByNumber) {
   EXPECT_EQ(list.bad_lines, (std::vector<int>{2, 3, 4}));
 }
 
+TEST(DepthList, LinesWithImpossibleTimesAreMalformed) {
+  const DepthList list = ParseDepthList("1 a\n1e300 b\n2 c\ninf d");
+  EXPECT_EQ(list.entries.size(), 2u);
+  EXPECT_EQ(list.bad_lines, (std::vector<int>{2, 4}));
+}
+
 TEST(DepthList, IgnoresAByteOrderMark) {
   const DepthList list = ParseDepthList(
       "\xEF\xBB\xBF"

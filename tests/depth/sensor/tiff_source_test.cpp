@@ -17,9 +17,7 @@
 namespace ossa::depth {
 namespace {
 
-using test::ExpectRefused;
 using test::FramesOf;
-using test::Notes;
 using test::TemporaryFolder;
 
 std::vector<uint16_t> PageDepths(int i) { return test::ExampleFrame(i).depth_mm; }
@@ -94,7 +92,7 @@ TEST(TiffPages, ThatAreDamagedAreSkippedWithAWarning) {
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   for (size_t i = 8; i < 300; ++i) bytes[i] = '\x55';  // of the first page's rows
   test::WriteBytes(folder / "x.tif", bytes);
-  Notes notes;
+  test::Notes notes;
   const auto frames = FramesOf(*OpenSource(folder / "x.tif", notes.Options()));
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[0].index, 1);
@@ -105,8 +103,8 @@ TEST(TiffPages, ThatAreDamagedAreSkippedWithAWarning) {
 TEST(TiffPages, InAFolderOfImagesAreRefused) {
   const TemporaryFolder folder;
   WritePages(folder / "0.tif");
-  ExpectRefused([&] { FramesOf(*OpenSource(folder.path())); },
-                "found several pages: as a SOURCE of its own it is a recording");
+  test::ExpectRefused([&] { FramesOf(*OpenSource(folder.path())); },
+                      "found several pages: as a SOURCE of its own it is a recording");
 }
 
 }  // namespace

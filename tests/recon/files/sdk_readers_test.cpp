@@ -61,6 +61,36 @@ TEST(UtKinect, TimesFollowFrameNumbersAndDuplicatesCountOnce) {
   ExpectAt(read, 0, Joint::kFootRight, 0.19, 0.5, 2);
 }
 
+TEST(Msrc12, HasTicksAndFourNumbersAJoint) {
+  const auto read = Read(Msrc12Text(3));
+  ASSERT_EQ(read.frames.size(), 3u);
+  EXPECT_NEAR(read.frames[2].time_s, 2 / 30.0, kExact);
+  ExpectAt(read, 2, Joint::kHead, 0.03, 0.2, 2);
+  ExpectAt(read, 0, Joint::kFootRight, 0.19, 0.0, 2);
+}
+
+TEST(MsrDailyActivity, HasPeopleByTheirRowsAndSkipsThoseInTheImage) {
+  const auto read = Read(MsrDailyText(3));
+  ASSERT_EQ(read.frames.size(), 3u);
+  EXPECT_TRUE(read.frames[0].bodies.empty());
+  ASSERT_EQ(read.frames[2].bodies.size(), 2u);
+  EXPECT_EQ(read.frames[2].bodies[1].id, 2);
+  ExpectAt(read, 1, Joint::kHandLeft, 0.07, 0.1, 2);
+  EXPECT_NEAR(read.frames[1].time_s, 1 / 30.0, kExact);
+  const auto more = Read("4" + MsrDailyText(3).substr(1));
+  ASSERT_EQ(more.warnings.size(), read.warnings.size() + 1);
+  EXPECT_NE(more.warnings[0].find("counts 4 frames, the file has 3"), std::string::npos);
+}
+
+TEST(PkuMmd, HasTwoPeopleWhoAreZerosWhereNobodyWasSeen) {
+  const auto read = Read(PkuMmdText(2));
+  ASSERT_EQ(read.frames.size(), 2u);
+  EXPECT_EQ(read.sensor, kKinectV2);
+  ASSERT_EQ(read.frames[1].bodies.size(), 1u);
+  ExpectAt(read, 1, Joint::kShoulderCenter, 0.20, 0.1, 2);  // SpineShoulder, index 20
+  ExpectAt(read, 1, Joint::kHead, 0.03, 0.1, 2);
+}
+
 TEST(Labanotation, ReadsTwentyOfTwentyFiveJointsWithTicksAndStates) {
   const auto read = Read(LabanText(2));
   ASSERT_EQ(read.frames.size(), 2u);
@@ -349,6 +379,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"Keraal", KeraalText(175) + KeraalText(119),
                           "line 2: expected 175 numbers"},
                     Wrong{"UtKinect", UtText() + "7 1 2 3\n", "line 5: expected 61 numbers"},
+                    Wrong{"Msrc12", Msrc12Text(2) + "7 1 2 3\n", "line 3: expected 81 numbers"},
+                    Wrong{"PkuMmd", PkuMmdText(1) + "1 2\n", "line 2: expected 150 numbers"},
+                    Wrong{"MsrDailyRows", MsrDailyText(3) + "41\n", "a count of rows, 40 a person"},
+                    Wrong{"MsrDailyEnd", MsrDailyText(3) + "40\n1 2 3 1\n", "row 2 of a person's"},
                     Wrong{"MsrAction3d", MsrText(1) + "1 2 3\n", "line 21: expected 4 numbers"},
                     Wrong{"KinectGait", GaitText(1) + "Head;1;2\n", "line 21: expected Name;x;y;z"},
                     Wrong{"Ntu", With(NtuText(), "25\n", "20\n"), "count of joints"}),

@@ -65,6 +65,40 @@ inline std::string UtText() {
   return text;
 }
 
+inline std::string Msrc12Text(size_t frames) {
+  std::string text;
+  for (size_t f = 0; f < frames; ++f) {
+    text += std::to_string(1'000'000'000 + 1'662'500 * f);
+    for (size_t j = 0; j < 20; ++j) text.append(" ").append(Triple(j, f, " ")).append(" 0");
+    text += "\n";
+  }
+  return text;
+}
+
+// The first frame with nobody, the last with two people.
+inline std::string MsrDailyText(size_t frames) {
+  std::string text = std::to_string(frames) + " 20\n";
+  for (size_t f = 0; f < frames; ++f) {
+    const size_t people = f == 0 ? 0 : f + 1 == frames ? 2 : 1;
+    text += std::to_string(40 * people) + "\n";
+    for (size_t j = 0; j < 20 * people; ++j) {
+      text += Triple(j, f, " ") + " 1\n0.5 0.25 2000 1\n";
+    }
+  }
+  return text;
+}
+
+// One person, and zeros for another.
+inline std::string PkuMmdText(size_t frames) {
+  std::string text;
+  for (size_t f = 0; f < frames; ++f) {
+    for (size_t j = 0; j < 25; ++j) text += Triple(j, f, " ") + " ";
+    for (size_t number = 0; number < 75; ++number) text += "0 ";
+    text += "\n";
+  }
+  return text;
+}
+
 inline std::string LabanText(size_t frames) {
   std::string text;
   for (size_t f = 0; f < frames; ++f) {
@@ -161,9 +195,9 @@ inline std::string JointColumnsText() {
 }
 
 inline std::vector<std::string> ForeignSkeletonTexts() {
-  return {GaitText(2),     MsrText(2),      UtText(),      LabanText(2),
-          KeraalText(175), KeraalText(119), NtuText(),     AzureText(),
-          SaverBytes(2),   C3dBytes(),      JointLines(2), JointColumnsText()};
+  return {GaitText(2),     MsrText(2),         UtText(),      LabanText(2),    KeraalText(175),
+          KeraalText(119), NtuText(),          AzureText(),   SaverBytes(2),   C3dBytes(),
+          JointLines(2),   JointColumnsText(), Msrc12Text(2), MsrDailyText(3), PkuMmdText(2)};
 }
 
 }  // namespace ossa::recon
