@@ -46,10 +46,15 @@ constexpr KnownDevice kDevices[] = {
     {"045e:02c4", "Kinect v2", Way::kMakersOwn},
     {"045e:02d8", "Kinect v2", Way::kMakersOwn},
     {"045e:097c", "Azure Kinect", Way::kMakersOwn},
+    {"8086:0aa5", "RealSense SR300", Way::kMakersOwn},
     {"8086:0ad3", "RealSense D415", Way::kMakersOwn},
+    {"8086:0ad4", "RealSense D430", Way::kMakersOwn},
     {"8086:0b07", "RealSense D435", Way::kMakersOwn},
     {"8086:0b3a", "RealSense D435i", Way::kMakersOwn},
+    {"8086:0b48", "RealSense SR305", Way::kMakersOwn},
+    {"8086:0b5b", "RealSense D405", Way::kMakersOwn},
     {"8086:0b5c", "RealSense D455", Way::kMakersOwn},
+    {"8086:0b64", "RealSense L515", Way::kMakersOwn},
     {"2bc5:0669", "Orbbec Femto Mega", Way::kMakersOwn},
     {"2bc5:066b", "Orbbec Femto Bolt", Way::kMakersOwn},
 };
@@ -100,8 +105,8 @@ std::string FindVideoDriver(const UsbDevice& device) {
 
 std::string DescribeRemedy(const UsbDevice& device) {
   if (device.known.way == Way::kMakersOwn) {
-    return "no OpenNI2 driver of Debian's: record with its maker's software, or read it through "
-           "its Python wheel (docs/cameras.md)";
+    return "no OpenNI2 driver of Debian's: record with its maker's software, or let its Python "
+           "wheel send its images, as 'realsense.py --pipe | ossa view -' (docs/cameras.md)";
   }
   const std::string driver = FindVideoDriver(device);
   if (!driver.empty()) {
