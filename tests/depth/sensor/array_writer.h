@@ -98,7 +98,7 @@ class MatWriter {
     std::array<size_t, 2> row = {1, elements.size()}, one = {1, 1};
     matvar_t* variable = Mat_VarCreateStruct(name.c_str(), 2, row.data(), fields.data(), 2);
     for (size_t i = 0; i < elements.size(); ++i) {
-      double time = static_cast<double>(i);
+      double time = 20.0 + 0.25 * static_cast<double>(i);
       Mat_VarSetStructFieldByName(
           variable, "t", i,
           Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, one.data(), &time, 0));

@@ -238,7 +238,7 @@ TEST(MatFiles, HaveWhatIsInsideOfCellsAndStructs) {
     ExpectImages((folder / "x.mat").string() + "#other");
     MatWriter(folder / "x.mat")
         .AddStructs("frames", MAT_C_UINT16, MAT_T_UINT16, image, MatlabImages(), compression);
-    ExpectImages(folder / "x.mat");
+    EXPECT_EQ(ExpectImages(folder / "x.mat").back().time_s, 0.5) << "by their fields t";
     ExpectImages((folder / "x.mat").string() + "#frames.depth");
     MatWriter(folder / "x.mat")
         .AddStructs("s", MAT_C_UINT16, MAT_T_UINT16, stack,
@@ -368,15 +368,27 @@ TEST(ArrayStacks, TakeAMatrixRowByRowOrColumnByColumn) {
   EXPECT_FALSE(CameraOfMatrix({500, 0, 300, 0, 510, 200, 0, 0, 2}, 640, 480));
 }
 
+TEST(ArrayStacks, FindTimesThatAreSingleNumbersInTheirOrder) {
+  std::vector<ArrayInfo> arrays;
+  for (const char* name : {"f(10).t", "f(9).t", "f(11).t", "f(9).label", "f(10).label", "time"}) {
+    arrays.push_back({name, {}, {}, true});
+  }
+  const auto times = FindTimes(arrays, 3);
+  ASSERT_EQ(times.size(), 3u);
+  EXPECT_EQ(times[0].name, "f(9).t");
+  EXPECT_EQ(times[2].name, "f(11).t");
+  EXPECT_TRUE(FindTimes(arrays, 2).empty());
+}
+
 TEST(ArrayStacks, FindTimesByTheirNameAndNumber) {
   const auto named = [](const std::string& name, const Shape& shape) {
     return ArrayInfo{name, {NumberKind::kFloat, 8, false}, shape, false};
   };
   const std::vector<ArrayInfo> arrays = {named("x", {5}), named("time_of_day", {4}),
                                          named("cam/Timestamps", {5}), named("t", {5})};
-  ASSERT_NE(FindTimes(arrays, 5), nullptr);
-  EXPECT_EQ(FindTimes(arrays, 5)->name, "cam/Timestamps");
-  EXPECT_EQ(FindTimes(arrays, 6), nullptr);
+  ASSERT_EQ(FindTimes(arrays, 5).size(), 1u);
+  EXPECT_EQ(FindTimes(arrays, 5)[0].name, "cam/Timestamps");
+  EXPECT_TRUE(FindTimes(arrays, 6).empty());
 }
 
 }  // namespace

@@ -89,24 +89,27 @@ std::optional<double> FindUnit_mm(StackReader& reader, const ArrayStack& stack) 
 
 // Times of the images from the first one; empty if the file states none.
 std::vector<double> ReadTimes(ArrayFile& file, const ArrayStack& stack) {
-  const std::vector<ArrayInfo> arrays = file.List();
-  const ArrayInfo* array = FindTimes(arrays, stack.count);
-  if (array == nullptr || stack.count < 2) return {};
-  std::vector<double> times = ValuesOf(array->format, file.Read(*array, 0, stack.count));
-  std::vector<double> steps;
+  const std::vector<ArrayInfo> arrays = FindTimes(file.List(), stack.count);
+  if (arrays.empty() || stack.count < 2) return {};
+  const std::string& name = arrays.front().name;
+  std::vector<double> times, steps;
+  for (const ArrayInfo& array : arrays) {
+    const auto values = ValuesOf(array.format, file.Read(array, 0, array.SliceCount()));
+    times.insert(times.end(), values.begin(), values.end());
+  }
   for (size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
   const auto middle = steps.begin() + static_cast<ptrdiff_t>(steps.size() / 2);
   const bool is_rising =
       std::all_of(steps.begin(), steps.end(), [](double step) { return step >= 0; });
   std::nth_element(steps.begin(), middle, steps.end());
   if (!is_rising || !(*middle > 0)) {
-    SendText(ReaderKind::kNote, array->name + " does not rise as times do: ignored");
+    SendText(ReaderKind::kNote, name + " does not rise as times do: ignored");
     return {};
   }
   const double unit_s = GuessTimeUnit(*middle).value_or(1.0);
   const double first = times.front();
   for (double& time : times) time = (time - first) * unit_s;
-  SendText(ReaderKind::kNote, "times are those of " + array->name + ", in " +
+  SendText(ReaderKind::kNote, "times are those of " + name + ", in " +
                                   (unit_s == 1.0    ? "seconds"
                                    : unit_s == 1e-3 ? "milliseconds"
                                    : unit_s == 1e-6 ? "microseconds"

@@ -110,6 +110,11 @@ std::string WithoutCounts(std::string name) {
 // "depth" of "camera/depth" and "camera.depth".
 std::string LastPart(const std::string& name) { return name.substr(name.find_last_of("/.") + 1); }
 
+bool IsNamedAfterTime(const std::string& name) {
+  return WithoutCounts(StripNumbers(LastPart(name))) == "t" ||
+         name.find("time") != std::string::npos || name.find("stamp") != std::string::npos;
+}
+
 std::string ListText(const std::vector<ArrayStack>& stacks) {
   constexpr size_t kNamed = 4;  // by hand: fits a line
   std::string text;
@@ -189,14 +194,21 @@ ArrayStack ChooseStack(const std::vector<ArrayInfo>& arrays, const std::string& 
                    stacks.front().name + ": " + ListText(stacks));
 }
 
-const ArrayInfo* FindTimes(const std::vector<ArrayInfo>& arrays, size_t images) {
-  const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const ArrayInfo& array) {
-    const std::string name = LowerCase(array.name);
-    const bool is_time = LastPart(name) == "t" || name.find("time") != std::string::npos ||
-                         name.find("stamp") != std::string::npos;
-    return is_time && array.shape.size() == 1 && array.shape.front() == images;
-  });
-  return found == arrays.end() ? nullptr : &*found;
+std::vector<ArrayInfo> FindTimes(const std::vector<ArrayInfo>& arrays, size_t images) {
+  std::map<std::string, std::vector<ArrayInfo>> numbers;
+  for (const ArrayInfo& array : arrays) {
+    if (!IsNamedAfterTime(LowerCase(array.name))) continue;
+    if (array.shape == std::vector<size_t>{images}) return {array};
+    if (array.shape.empty()) numbers[StripNumbers(array.name)].push_back(array);
+  }
+  for (auto& [name, each] : numbers) {
+    if (each.size() != images) continue;
+    std::stable_sort(each.begin(), each.end(), [](const ArrayInfo& a, const ArrayInfo& b) {
+      return NaturalLess(a.name, b.name);
+    });
+    return each;
+  }
+  return {};
 }
 
 const ArrayInfo* FindCameraMatrix(const std::vector<ArrayInfo>& arrays) {

@@ -33,9 +33,9 @@ std::optional<ArrayStack> FindStack(const ArrayInfo& array);
 /// only ones. Throws InputError if there is none, or several.
 ArrayStack ChooseStack(const std::vector<ArrayInfo>& arrays, const std::string& asked);
 
-/// An array of as many numbers as there are images, named after time or stamps; none if there is
-/// none.
-const ArrayInfo* FindTimes(const std::vector<ArrayInfo>& arrays, size_t images);
+/// An array of as many numbers as there are images, named after time or stamps, or as many single
+/// numbers whose names differ in their counts, in their order; empty if there are none.
+std::vector<ArrayInfo> FindTimes(const std::vector<ArrayInfo>& arrays, size_t images);
 
 /// A matrix of 3 x 3 named as cameras' are: K, intrinsics, camera_matrix; none if there is none.
 const ArrayInfo* FindCameraMatrix(const std::vector<ArrayInfo>& arrays);
